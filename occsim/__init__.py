@@ -1,0 +1,47 @@
+"""Occupancy grid mapping with informative priors.
+
+A robot with a range sensor drives through a building at known poses. The building's
+architectural drawing, if known, is the map's prior. This library computes what the
+sensor says (once, free of any prior), the map that any prior then gives, how good the
+map is, and which priors are best.
+"""
+
+from occsim.errors import (
+    DrawingError,
+    OccsimError,
+    ParameterError,
+    TrajectoryError,
+)
+from occsim.evidence import EvidenceLog, collect_evidence
+from occsim.grid import Grid
+from occsim.logodds import logit, p_free_from_log_odds
+from occsim.mapping import OccupancyMap, UpdateRule, fuse
+from occsim.prior import Prior, PriorMap, build_prior
+from occsim.sensor import BehindHit, Sensor
+from occsim.trajectory import Trajectory
+from occsim.world import World, truth_cells
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BehindHit",
+    "DrawingError",
+    "EvidenceLog",
+    "Grid",
+    "OccsimError",
+    "OccupancyMap",
+    "ParameterError",
+    "Prior",
+    "PriorMap",
+    "Sensor",
+    "Trajectory",
+    "TrajectoryError",
+    "UpdateRule",
+    "World",
+    "build_prior",
+    "collect_evidence",
+    "fuse",
+    "logit",
+    "p_free_from_log_odds",
+    "truth_cells",
+]

@@ -1,0 +1,126 @@
+"""The grid: pixels of a drawing gathered into square cells."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from occsim._types import FloatArray, IntArray
+from occsim.errors import ParameterError
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grid:
+    """Square cells over an image; the last row and column may be partial.
+
+    Parameters
+    ----------
+    height_px, width_px : int
+        Size of the image, px, at least 1.
+    cell_px : int
+        Side of a cell, px, at least 1.
+
+    Raises
+    ------
+    ParameterError
+        Where a size is not a whole number of at least 1.
+    """
+
+    height_px: int
+    width_px: int
+    cell_px: int
+
+    def __post_init__(self) -> None:
+        for name in ("height_px", "width_px", "cell_px"):
+            value = getattr(self, name)
+            whole = isinstance(value, (int, np.integer))
+            if not whole or isinstance(value, bool) or value < 1:
+                raise ParameterError(
+                    f"{name} must be a whole number of at least 1; got {value!r}"
+                )
+            object.__setattr__(self, name, int(value))
+
+    @property
+    def n_rows(self) -> int:
+        """Number of rows of cells."""
+        return -(-self.height_px // self.cell_px)
+
+    @property
+    def n_cols(self) -> int:
+        """Number of columns of cells."""
+        return -(-self.width_px // self.cell_px)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of cells, (R, C)."""
+        return self.n_rows, self.n_cols
+
+    @property
+    def n_cells(self) -> int:
+        """Number of cells."""
+        return self.n_rows * self.n_cols
+
+    def pixels_per_cell(self) -> IntArray:
+        """Return how many pixels each cell really has.
+
+        Returns
+        -------
+        ndarray of int64, shape (R, C)
+            ``cell_px ** 2`` inside, fewer at the right and bottom edge.
+        """
+        heights = np.full(self.n_rows, self.cell_px, dtype=np.int64)
+        widths = np.full(self.n_cols, self.cell_px, dtype=np.int64)
+        heights[-1] = self.height_px - (self.n_rows - 1) * self.cell_px
+        widths[-1] = self.width_px - (self.n_cols - 1) * self.cell_px
+        return heights[:, None] * widths[None, :]
+
+    def share(self, mask: npt.NDArray[np.generic]) -> FloatArray:
+        """Return the share of true pixels in each cell.
+
+        Parameters
+        ----------
+        mask : ndarray of bool, shape (H, W)
+            One flag a pixel; numbers count as true where they are not zero.
+
+        Returns
+        -------
+        ndarray of float64, shape (R, C)
+            In [0, 1]; partial cells are shares of the pixels they really have.
+
+        Raises
+        ------
+        ParameterError
+            Where the mask does not have the size of the image.
+        """
+        flags = np.asarray(mask) != 0
+        if flags.shape != (self.height_px, self.width_px):
+            raise ParameterError(
+                f"mask must have shape ({self.height_px}, {self.width_px}); "
+                f"got {flags.shape}"
+            )
+        row_starts = np.arange(0, self.height_px, self.cell_px)
+        col_starts = np.arange(0, self.width_px, self.cell_px)
+        # Rows first: int32 sums over contiguous memory, then the few columns.
+        rows = np.add.reduceat(flags, row_starts, axis=0, dtype=np.int32)
+        counts = np.add.reduceat(rows, col_starts, axis=1, dtype=np.int64)
+        return np.asarray(counts / self.pixels_per_cell(), dtype=np.float64)
+
+    def cell_index(self, x_px: npt.ArrayLike, y_px: npt.ArrayLike) -> IntArray:
+        """Return the flat row-major index of the cell that holds each point.
+
+        Parameters
+        ----------
+        x_px, y_px : array_like
+            Points in the image frame, px.
+
+        Returns
+        -------
+        ndarray of int64
+            Index in [0, R * C), or -1 outside the image.
+        """
+        x = np.asarray(x_px, dtype=np.float64)
+        y = np.asarray(y_px, dtype=np.float64)
+        inside = (x >= 0) & (y >= 0) & (x < self.width_px) & (y < self.height_px)
+        col = np.floor(np.where(inside, x, 0.0) / self.cell_px).astype(np.int64)
+        row = np.floor(np.where(inside, y, 0.0) / self.cell_px).astype(np.int64)
+        return np.asarray(np.where(inside, row * self.n_cols + col, -1), dtype=np.int64)

@@ -1,0 +1,146 @@
+"""The prior map: what the drawing says before the first reading."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from occsim._types import BoolArray, FloatArray
+from occsim.errors import ParameterError
+from occsim.grid import Grid
+from occsim.logodds import logit
+from occsim.world import wall_cells
+
+PRIOR_SCALE = 0.9
+"""Factor on p_wall and p_space: keeps a value of 1 away from infinite log-odds."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Prior:
+    """Probability of free that the drawing gives to wall cells and to space cells.
+
+    Parameters
+    ----------
+    p_wall, p_space : float
+        Values in (0, 1]; the prior is ``scale * p_wall`` on wall cells and
+        ``scale * p_space`` elsewhere. The defaults are the source's choice.
+    scale : float, default 0.9
+        Factor in (0, 1]. With a scale of 1, p_wall and p_space must be below 1.
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+
+    p_wall: float = 0.2
+    p_space: float = 0.9
+    scale: float = PRIOR_SCALE
+
+    def __post_init__(self) -> None:
+        for name in ("p_wall", "p_space", "scale"):
+            value = getattr(self, name)
+            if not 0.0 < value <= 1.0:
+                raise ParameterError(f"{name} must lie in (0, 1]; got {value!r}")
+        if max(self.p_wall, self.p_space) * self.scale >= 1.0:
+            raise ParameterError(
+                "scale * p_wall and scale * p_space must lie below 1, where log-odds "
+                f"are finite; got {self.scale!r} * "
+                f"{max(self.p_wall, self.p_space)!r}"
+            )
+
+    @classmethod
+    def uninformative(cls) -> Self:
+        """Return the prior that says nothing: p_free exactly one half everywhere."""
+        return cls(p_wall=0.5, p_space=0.5, scale=1.0)
+
+    @property
+    def p_free_wall(self) -> float:
+        """Probability of free on wall cells."""
+        return self.scale * self.p_wall
+
+    @property
+    def p_free_space(self) -> float:
+        """Probability of free on every other cell."""
+        return self.scale * self.p_space
+
+
+@dataclass(frozen=True, eq=False)
+class PriorMap:
+    """A prior laid over a grid.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    is_wall : ndarray of bool, shape (R, C)
+        Cells in which the drawing shows a wall.
+    p_free : ndarray of float64, shape (R, C)
+        Probability of free before the first reading.
+    """
+
+    grid: Grid
+    is_wall: BoolArray
+    p_free: FloatArray
+
+    @property
+    def log_odds(self) -> FloatArray:
+        """Log-odds l_0 of the prior, ndarray of float64 of shape (R, C)."""
+        return logit(self.p_free)
+
+
+def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
+    """Return the prior map of cells that are already classed.
+
+    Parameters
+    ----------
+    is_wall : ndarray of bool, shape (R, C)
+        Wall cells of the drawing.
+    grid : Grid
+        The cells.
+    prior : Prior
+        Values for the two classes.
+
+    Returns
+    -------
+    PriorMap
+
+    Raises
+    ------
+    ParameterError
+        Where the array does not have the grid's shape.
+    """
+    if is_wall.shape != grid.shape:
+        raise ParameterError(
+            f"is_wall must have the grid's shape {grid.shape}; got {is_wall.shape}"
+        )
+    p_free = np.where(is_wall, prior.p_free_wall, prior.p_free_space)
+    return PriorMap(grid=grid, is_wall=is_wall, p_free=p_free)
+
+
+def build_prior(
+    wall_mask: BoolArray, grid: Grid, prior: Prior, wall_share: float = 0.0
+) -> PriorMap:
+    """Return the prior map that a detected wall mask gives.
+
+    Parameters
+    ----------
+    wall_mask : ndarray of bool, shape (H, W)
+        Walls found in the drawing (never the ground truth).
+    grid : Grid
+        Cells over the same image.
+    prior : Prior
+        Values for wall cells and space cells.
+    wall_share : float, default 0
+        Share of wall pixels that a wall cell must exceed, in [0, 1).
+
+    Returns
+    -------
+    PriorMap
+
+    Raises
+    ------
+    ParameterError
+        Where sizes differ or the threshold lies outside its domain.
+    """
+    return prior_from_cells(wall_cells(wall_mask, grid, wall_share), grid, prior)

@@ -1,0 +1,85 @@
+"""The simulated range sensor: its parameters and its inverse model."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+import numpy.typing as npt
+
+from occsim._types import FloatArray
+from occsim.errors import ParameterError
+from occsim.logodds import logit
+
+P_FREE_MAX = 0.9
+P_FREE_MIN = 0.1
+"""Ends of the inverse sensor model, Eq. 4.22: entirely empty, entirely object."""
+
+
+class BehindHit(Enum):
+    """What the sensor says of pixels in view behind the wall it meets."""
+
+    OCCUPIED = "occupied"
+    """At the hit or beyond: object, as Eq. 4.22 is printed."""
+    UNSEEN = "unseen"
+    """Only the wall surface that is seen is object; beyond it nothing is said."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Sensor:
+    """A cone-shaped, noiseless range sensor.
+
+    Parameters
+    ----------
+    range_px : float, default 20
+        Reach r, px, above 0. The source sets it to the length of a door.
+    fov_rad : float, default pi / 6
+        Full opening angle of the field of view, rad, in (0, 2 pi].
+    behind_hit : BehindHit, default BehindHit.OCCUPIED
+        What is said of pixels behind a wall.
+    clear_no_hit : bool, default True
+        Whether a ray that meets nothing within reach clears its pixels.
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+
+    range_px: float = 20.0
+    fov_rad: float = np.pi / 6
+    behind_hit: BehindHit = BehindHit.OCCUPIED
+    clear_no_hit: bool = True
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.range_px < np.inf:
+            raise ParameterError(
+                f"range_px must be above 0 and finite; got {self.range_px!r}"
+            )
+        # A slider in degrees may land a rounding error beyond the full circle.
+        if not 0.0 < self.fov_rad <= 2.0 * np.pi + 1e-9:
+            raise ParameterError(f"fov_rad must lie in (0, 2 pi]; got {self.fov_rad!r}")
+        if not isinstance(self.behind_hit, BehindHit):
+            raise ParameterError(
+                f"behind_hit must be a BehindHit; got {self.behind_hit!r}"
+            )
+
+
+def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> FloatArray:
+    """Return what one reading says of a cell, Eq. 4.22, as log-odds.
+
+    Parameters
+    ----------
+    n_empty, n_object : array_like of int
+        Pixels of the cell in view nearer than the hit, and at it or beyond; at least
+        one of the two is positive.
+
+    Returns
+    -------
+    ndarray of float64
+        ``logit(p_free(reading))``, nats, in [-ln 9, ln 9].
+    """
+    empty = np.asarray(n_empty, dtype=np.float64)
+    q = empty / (empty + np.asarray(n_object, dtype=np.float64))
+    # Eq. 4.22: 0.9 for q = 1, 0.1 for q = 0, else the empty share. Clipping is our
+    # reading: unclipped, a cell 99 % empty would count for more than an empty one.
+    return logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))

@@ -1,0 +1,100 @@
+"""The world that the sensor sees, and its walls gathered into cells."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occsim._types import BoolArray
+from occsim.errors import ParameterError
+from occsim.grid import Grid
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class World:
+    """Ground truth: which pixels are structure.
+
+    Parameters
+    ----------
+    occupied : ndarray of bool, shape (H, W)
+        True where a wall stands. A private copy is kept, never written to.
+
+    Raises
+    ------
+    ParameterError
+        Where the array is not two-dimensional, empty, or not of truth values.
+    """
+
+    occupied: BoolArray
+
+    def __post_init__(self) -> None:
+        occupied = np.asarray(self.occupied)
+        if occupied.dtype != np.bool_:
+            raise ParameterError(
+                f"occupied must be an array of bool; got {occupied.dtype}"
+            )
+        if occupied.ndim != 2 or occupied.size == 0:
+            raise ParameterError(
+                "occupied must have shape (H, W) with at least one pixel; "
+                f"got {occupied.shape}"
+            )
+        occupied = np.array(occupied, order="C")
+        occupied.setflags(write=False)
+        object.__setattr__(self, "occupied", occupied)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Height and width, px."""
+        height, width = self.occupied.shape
+        return height, width
+
+    def grid(self, cell_px: int) -> Grid:
+        """Return the grid of this cell size over the world."""
+        height, width = self.shape
+        return Grid(height_px=height, width_px=width, cell_px=cell_px)
+
+
+def wall_cells(mask: BoolArray, grid: Grid, wall_share: float = 0.0) -> BoolArray:
+    """Return the cells whose share of wall pixels exceeds a threshold.
+
+    Parameters
+    ----------
+    mask : ndarray of bool, shape (H, W)
+        Wall pixels: a detected wall mask or a ground truth.
+    grid : Grid
+        Cells over the same image.
+    wall_share : float, default 0
+        Threshold in [0, 1); at 0 any wall pixel makes a wall cell.
+
+    Returns
+    -------
+    ndarray of bool, shape (R, C)
+        True for wall cells.
+
+    Raises
+    ------
+    ParameterError
+        Where the threshold lies outside [0, 1) or the sizes differ.
+    """
+    if not 0.0 <= wall_share < 1.0:
+        raise ParameterError(f"wall_share must lie in [0, 1); got {wall_share!r}")
+    return grid.share(mask) > wall_share
+
+
+def truth_cells(world: World, grid: Grid, wall_share: float = 0.0) -> BoolArray:
+    """Return the ground truth's wall cells, by the rule of `wall_cells`.
+
+    Parameters
+    ----------
+    world : World
+        Ground truth.
+    grid : Grid
+        Cells over it.
+    wall_share : float, default 0
+        Threshold in [0, 1).
+
+    Returns
+    -------
+    ndarray of bool, shape (R, C)
+        True for cells that are wall in truth.
+    """
+    return wall_cells(world.occupied, grid, wall_share)
