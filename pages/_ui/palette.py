@@ -1,0 +1,46 @@
+"""Every colour of the app, once.
+
+Three scales, never mixed: *belief* is grey with fixed ends, so that a map reads like a
+drawing; *evidence* (log-odds, differences) diverges from zero, orange towards wall and
+blue towards free; *correctness* keeps its two errors apart under protan, deutan and
+tritan vision. What has a meaning here has it on every page and in every component.
+"""
+
+# Belief: p_free from 0 (occupied) over one half (unknown) to 1 (free).
+BELIEF_OCCUPIED = "#000000"
+BELIEF_UNKNOWN = "#808080"
+BELIEF_FREE = "#ffffff"
+BELIEF_SCALE = [[0.0, BELIEF_OCCUPIED], [1.0, BELIEF_FREE]]
+
+# Evidence and differences: symmetric about zero.
+EVIDENCE_WALL = "#e8871e"
+EVIDENCE_ZERO = "#f5f5f2"
+EVIDENCE_FREE = "#1f7fbf"
+EVIDENCE_SCALE = [[0.0, EVIDENCE_WALL], [0.5, EVIDENCE_ZERO], [1.0, EVIDENCE_FREE]]
+
+# Correctness of a finished map against the ground truth.
+HIT = "#1a1a1a"
+FALSE_WALL = "#D55E00"
+MISSED_WALL = "#0072B2"
+FREE = "#ffffff"
+UNSEEN = "#c8c8c8"
+UNSEEN_HATCH = "#8f8f8f"
+
+# What is laid over a drawing or a map.
+PAPER = "#ffffff"
+WALL_MASK = "#aa4499"
+GROUND_TRUTH = "#117733"
+PATH = "#00856a"
+ROBOT = "#00856a"
+SENSOR = "#00856a"
+HALO = "#ffffff"
+CROSSHAIR = "#cc3377"
+STROKE = "#aa4499"
+ERASER = "#cc3377"
+
+# Surfaces of precision and recall: perceptually even, safe without colour vision.
+SCORE_SCALE = "cividis"
+
+# The reference drawings a to e, and whatever else is overlaid in one chart.
+SERIES = ["#0072B2", "#D55E00", "#009E73", "#AA4499", "#8a7600", "#555555"]
+MARK = "#cc3377"
