@@ -1,0 +1,1 @@
+"""The script that makes the reference drawings, their ground truths and tours."""

@@ -1,0 +1,5 @@
+"""Make the reference drawings: python -m assets.samples.make."""
+
+from .build import build
+
+build()
