@@ -17,15 +17,14 @@ from .tour import plan_tour
 FOLDER = Path(__file__).resolve().parent.parent
 FOV_DEG = 30.0  # the source's phi = pi / 6
 
-Box = tuple[float, float, float, float]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Brief:
     """One drawing: how it is called, drawn and toured.
 
-    `interior` is the floor of the building (a polygon), `keep_out` the stairs that a
-    robot cannot drive on, `start` where its tour begins; px.
+    `interior` is the floor of the building (a polygon), `start` where the tour begins;
+    px. The world is flat and holds structure only, as in the source, so that tours
+    cross stairs as if they were floor.
     """
 
     draw: Callable[[], Plan]
@@ -37,7 +36,6 @@ class Brief:
     n_poses: int
     spacing_px: int
     clearance_px: float
-    keep_out: tuple[Box, ...] = ()
 
 
 def upright(x0: float, y0: float, x1: float, y1: float) -> tuple[Point, ...]:
@@ -60,7 +58,6 @@ BRIEFS = {
         n_poses=420,
         spacing_px=8,
         clearance_px=7.0,
-        keep_out=((209, 48, 334, 92),),
     ),
     "b": Brief(
         draw=plan_b,
@@ -89,7 +86,6 @@ BRIEFS = {
         n_poses=450,
         spacing_px=4,
         clearance_px=4.0,
-        keep_out=((110, 148, 176, 190),),
     ),
     "d": Brief(
         draw=plan_d,
@@ -118,7 +114,6 @@ BRIEFS = {
         n_poses=450,
         spacing_px=4,
         clearance_px=4.0,
-        keep_out=((90, 40, 142, 82),),
     ),
 }
 
@@ -131,21 +126,11 @@ def floor_mask(brief: Brief, shape: tuple[int, int]) -> np.ndarray:
     return mask > 0
 
 
-def walkable(brief: Brief, floor: np.ndarray) -> np.ndarray:
-    """(H, W) bool: `floor` without the stairs."""
-    mask = floor.copy()
-    for x0, y0, x1, y1 in brief.keep_out:
-        mask[int(y0) : int(y1), int(x0) : int(x1)] = False
-    return mask
-
-
 def tour_of(brief: Brief, wall: np.ndarray) -> np.ndarray:
     """Poses (S, 3): x_px, y_px, theta_deg."""
-    floor = floor_mask(brief, wall.shape)
     return plan_tour(
         wall,
-        floor=floor,
-        walkable=walkable(brief, floor),
+        floor=floor_mask(brief, wall.shape),
         start=brief.start,
         range_px=brief.door_px,
         fov_deg=FOV_DEG,

@@ -196,7 +196,8 @@ def _annotation_b(sheet):
     fit.label(sheet, 318, 86, "BED 1", area(148, 132), 7.5)
     fit.label(sheet, 354, 244, "BED 2", area(148, 135), 7.5)
     fit.label(sheet, 251, 266, "STORE", None, 6.5)
-    sheet.text(126, 326, "BALCONY", 7, halo=1.5)
+    sheet.text(182, 327, "BALCONY", 7, halo=1.5)
+    fit.label(sheet, 251, 186, "HALL", None, 7.5)
     sheet.line((251, 4), (251, 16), MEDIUM)  # entrance arrow
     sheet.polygon([(247.5, 13), (254.5, 13), (251, 19)], HAIR, 0)
     sheet.text(282, 10, "ENTRANCE", 6.5)

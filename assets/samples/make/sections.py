@@ -3,11 +3,9 @@
 A door leaf of 0.9 m is 20 px.
 """
 
-from math import hypot
-
 from . import fittings as fit
 from .plan import Plan, Style, along, perpendicular, strip, unit
-from .sheet import HAIR, THIN
+from .sheet import HAIR
 
 PX_PER_M = 20 / 0.9
 UP, DOWN, LEFT, RIGHT = (0, -1), (0, 1), (-1, 0), (1, 0)
@@ -43,8 +41,8 @@ def _structure_c(plan: Plan):
         (105, 140, 110, 214),
         (176, 140, 181, 214),
         (110, 140, 176, 144),
-        (196, 96, 200, 102),
-        (196, 138, 200, 144),
+        (176, 96, 181, 102),
+        (176, 138, 181, 144),
     ]
     columns = [
         (x - 5, y - 5, x + 5, y + 5) for x in (152, 228) for y in (35, 98, 142, 205)
@@ -52,12 +50,12 @@ def _structure_c(plan: Plan):
     plan.walls(Style.HOLLOW, partitions)
     plan.walls(Style.SOLID, structure + [c for c in columns if c[0] > 147 or c[1] < 90])
     plan.double_door((86, 98), (126, 98), UP, 4)  # seminar room
-    plan.double_door((123, 142), (163, 142), DOWN, 4)  # staircase
-    plan.double_door((198, 102), (198, 138), RIGHT, 4)  # across the corridor
-    plan.door((168, 98), (188, 98), UP, 4)
+    plan.double_door((123, 142), (163, 142), UP, 4)  # staircase
+    plan.double_door((178.5, 102), (178.5, 138), RIGHT, 5)  # across the corridor
+    plan.door((216, 98), (196, 98), UP, 4)
     plan.door((260, 98), (240, 98), UP, 4)
     plan.door((96, 142), (76, 142), DOWN, 4)
-    plan.door((206, 142), (186, 142), DOWN, 4)
+    plan.door((218, 142), (198, 142), DOWN, 4)
     plan.door((272, 142), (252, 142), DOWN, 4)
     plan.door((242, 172), (242, 192), LEFT, 4)
     for y in (30, 210):
@@ -70,10 +68,11 @@ def _structure_c(plan: Plan):
 
 def _stairs_c(sheet):
     """Dog-leg stairs, their landing at the facade."""
-    fit.flight(sheet, 147, 149, 0, 28, 7, 5.6)
-    fit.flight(sheet, 139, 149 + 7 * 5.6, 180, 28, 7, 5.6, cut=4)
-    sheet.rect(139, 149, 147, 149 + 7 * 5.6, HAIR, 255)
-    sheet.line((143, 149), (143, 149 + 7 * 5.6), HAIR)
+    top, bottom = 156, 156 + 6 * 5.6
+    fit.flight(sheet, 147, top, 0, 28.5, 6, 5.6)
+    fit.flight(sheet, 139, bottom, 180, 28.5, 6, 5.6, cut=4)
+    sheet.rect(139, top, 147, bottom, HAIR, 255)
+    sheet.line((143, top), (143, bottom), HAIR)
 
 
 def plan_d() -> Plan:
@@ -104,7 +103,6 @@ def plan_d() -> Plan:
     plan.door((112, 136), (92, 136), DOWN, 4)
     plan.door((128, 136), (148, 136), DOWN, 4)
     plan.door((228, 164), (228, 144), RIGHT, 4)
-    plan.door((267, 136), (247, 136), DOWN, 4)
     plan.door((190, 70), (190, 50), LEFT, 4)
     plan.render_structure()
     return plan
@@ -144,9 +142,10 @@ def _structure_e(plan: Plan):
     plan.walls(Style.GREY, inner, [strip(*splay, 4)])
     facade = [(0, 26, facade_x(30), 34), (0, 204, facade_x(208), 212)]
     line = unit(*FACADE_E)
-    top = along(FACADE_E[0], line, 2.0)
-    bottom = along(FACADE_E[0], line, hypot(52, 194) - 2.0)
-    plan.walls(Style.HATCHED, facade, [strip(top, bottom, 8)])
+    half = 4 / line[1]  # of 8 px across the wall, measured level
+    ends = [(26, -half), (26, half), (212, half), (212, -half)]
+    oblique = [(facade_x(y) + side, y) for y, side in ends]
+    plan.walls(Style.HATCHED, facade, [oblique])
     way = unit(*splay)
     hinge = along(splay[0], way, 13.0)
     plan.door(hinge, along(hinge, way, 20.0), perpendicular(way), 4)  # at an angle
@@ -166,7 +165,7 @@ def _structure_e(plan: Plan):
 
 
 def _underlay_e(sheet):
-    fit.flight(sheet, 94, 79, 270, 36, 8, 5.6, cut=5)
+    fit.flight(sheet, 94, 80, 270, 34, 8, 5.6, cut=5)
     sheet.tiles(96, 130, 140, 204, 5.6)
     fit.toilet(sheet, 104, 203, 180, 9)
     fit.basin(sheet, 97, 176, 270, 12, 8)
@@ -178,18 +177,19 @@ def _underlay_e(sheet):
 
 def _annotation_e(sheet):
     fit.label(sheet, 42, 56, "2.01 OFFICE", 84 * 52 / PX_PER_M**2, 7.0)
-    fit.label(sheet, 210, 58, "2.03 STUDY", 108 * 52 / PX_PER_M**2, 7.0)
+    study_px = facade_x(60) - 4.1 - 156  # its mean width
+    fit.label(sheet, 210, 58, "2.03 STUDY", study_px * 52 / PX_PER_M**2, 7.0)
     fit.label(sheet, 40, 172, "2.04 STORE", 92 * 74 / PX_PER_M**2, 7.0)
     fit.label(sheet, 206, 182, "2.06 OFFICE", None, 6.5)
     fit.label(sheet, 34, 116, "CORRIDOR", None, 7.0)
     fit.label(sheet, 220, 116, "2.05 LOBBY", None, 7.0)
     fit.label(sheet, 126, 166, "WC", None, 6.5)
-    sheet.text(140, 68, "UP", 6.0)
+    sheet.text(120, 38.5, "2.02 STAIR", 6.0)
+    sheet.text(146, 61, "UP", 6.0)
     fit.dimensions(sheet, [2, 86, 154, 276], 227, True, PX_PER_M, 6.0, 3.0)
-    sheet.polyline([(262, 150), (274, 168), (296, 168)], HAIR)
-    sheet.text(284, 162, "FIN.", 6.0)
-    sheet.text(284, 174, "LIMIT", 6.0)
+    sheet.polyline([(253, 152), (274, 168), (297, 168)], HAIR)
+    sheet.text(285, 162, "FIXED", 6.0)
+    sheet.text(285, 174, "GLASS", 6.0)
     sheet.polygon([(270, 204), (277, 204), (273.5, 210)], HAIR, 0)  # level mark
     sheet.line((270, 204), (296, 204), HAIR)
     sheet.text(286, 199, "+3.40", 6.0)
-    sheet.rect(0, 120, 8, 126, THIN)

@@ -14,7 +14,11 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 HEADINGS_DEG = (0, 90, 180, 270)
 RAYS = 31  # one a degree over the field of view of 30 degrees
-WALL_WORTH = (6, 4, 2)  # of the first, second and third look at a pixel of wall surface
+WALL_WORTH = (
+    24,
+    6,
+    2,
+)  # of the first, second and third look at a pixel of wall surface
 FLOOR_WORTH = (2, 1)  # of the first and second look at a pixel of floor
 
 
@@ -134,36 +138,80 @@ def _two_opt_move(distance: np.ndarray, order: list[int]) -> list[int] | None:
     return order[: i + 1] + order[i + 1 : j + 1][::-1] + order[j + 1 :]
 
 
-def with_headings(order, nodes, headings: dict[int, list[int]]) -> np.ndarray:
-    """Poses (S, 3), x_px, y_px, theta_deg; at each place turn on by the nearer way."""
+def in_sight(clear: np.ndarray, start, end) -> bool:
+    """Whether the straight way between two nodes stays on `clear` floor."""
+    n = 2 * int(np.abs(np.subtract(end, start)).max()) + 1  # half a pixel a step
+    rows, cols = np.floor(np.linspace(start, end, n) + 0.5).astype(int).T
+    return bool(clear[rows, cols].all())
+
+
+def stops_between(clear, nodes, before: np.ndarray, start: int, end: int) -> list[int]:
+    """Nodes to pass from start to end so that each is in sight of the one before.
+
+    before : (N,) int, each node's predecessor on its shortest way from start.
+    """
+    way = [end]
+    while way[-1] != start:
+        way.append(int(before[way[-1]]))
+    way.reverse()
+    stops, here = [], 0
+    while not in_sight(clear, nodes[way[here]], nodes[end]):
+        ahead = range(here + 1, len(way))
+        seen = [k for k in ahead if in_sight(clear, nodes[way[here]], nodes[way[k]])]
+        here = max(seen, default=here + 1)
+        stops.append(way[here])
+    return stops
+
+
+def facing_along(start, end) -> int:
+    """Which of the four headings is nearest to the direction from start to end."""
+    rows, cols = np.subtract(end, start)
+    if abs(cols) >= abs(rows):
+        return 0 if cols > 0 else 2
+    return 1 if rows > 0 else 3
+
+
+def with_headings(stops, nodes, headings: dict[int, list[int]]) -> np.ndarray:
+    """Poses (S, 3), x_px, y_px, theta_deg; at each stop turn on by the nearer way.
+
+    A stop that is only passed, (node, True), is passed facing the next one.
+    """
     poses, facing = [], 0
-    for place in order:
-        wanted = set(headings[place])
+    for k, (place, passed) in enumerate(stops):
+        row, col = nodes[place]
+        if passed:
+            wanted = {facing_along(nodes[place], nodes[stops[k + 1][0]])}
+        else:
+            wanted = set(headings[place])
         while wanted:
             facing = min(wanted, key=lambda h: (min((h - facing) % 4, 3), h))
             wanted.remove(facing)
-            row, col = nodes[place]
             poses.append((col + 0.5, row + 0.5, HEADINGS_DEG[facing]))
     return np.array(poses)
 
 
-def plan_tour(
-    wall, *, floor, walkable, start, range_px, fov_deg, spacing, clearance_px, count
-):
-    """Poses (S, 3) of a walk that shows walls and `floor`, standing on `walkable`.
+def plan_tour(wall, *, floor, start, range_px, fov_deg, spacing, clearance_px, count):
+    """Poses (S, 3) of a walk that shows walls and `floor`: `count` chosen for what
+    they show and, between rooms, a few more in the doorways.
 
-    wall, floor, walkable : (H, W) bool; start : position (x_px, y_px) near which the
-    walk begins; count : how many poses.
+    wall, floor : (H, W) bool; start : position (x_px, y_px) near which it begins.
     """
-    nodes = lattice(~wall & walkable, spacing, clearance_px)
-    nodes = reachable(nodes, spacing, start)
-    region = floor | wall
-    chosen = choose(views(wall, nodes, range_px, fov_deg), wall, region, count)
+    nodes = reachable(lattice(~wall & floor, spacing, clearance_px), spacing, start)
+    seen = views(wall, nodes, range_px, fov_deg)
     headings: dict[int, list[int]] = {}
-    for k in chosen:
+    for k in choose(seen, wall, floor | wall, count):
         headings.setdefault(k // 4, []).append(k % 4)
     places = sorted(headings)
-    graph = walk_graph(nodes, spacing)
-    distance = dijkstra(graph, directed=False, indices=places)[:, places]
-    order = [places[k] for k in short_walk(distance, nearest(nodes[places], start))]
-    return with_headings(order, nodes, headings)
+    distance, before = dijkstra(
+        walk_graph(nodes, spacing),
+        directed=False,
+        indices=places,
+        return_predecessors=True,
+    )
+    clear = cv2.erode((~wall).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    order = short_walk(distance[:, places], nearest(nodes[places], start))
+    stops = [(places[order[0]], False)]
+    for here, there in zip(order[:-1], order[1:], strict=True):
+        between = stops_between(clear, nodes, before[here], places[here], places[there])
+        stops += [(k, True) for k in between] + [(places[there], False)]
+    return with_headings(stops, nodes, headings)
