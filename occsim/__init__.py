@@ -6,12 +6,8 @@ sensor says (once, free of any prior), the map that any prior then gives, how go
 map is, and which priors are best.
 """
 
-from occsim.errors import (
-    DrawingError,
-    OccsimError,
-    ParameterError,
-    TrajectoryError,
-)
+from occsim.drawing import Drawing, load_drawing
+from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
 from occsim.evidence import EvidenceLog, collect_evidence
 from occsim.grid import Grid
 from occsim.logodds import logit, p_free_from_log_odds
@@ -25,6 +21,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "BehindHit",
+    "Drawing",
     "DrawingError",
     "EvidenceLog",
     "Grid",
@@ -41,6 +38,7 @@ __all__ = [
     "build_prior",
     "collect_evidence",
     "fuse",
+    "load_drawing",
     "logit",
     "p_free_from_log_odds",
     "truth_cells",
