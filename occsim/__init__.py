@@ -13,6 +13,7 @@ from occsim.grid import Grid
 from occsim.logodds import logit, p_free_from_log_odds
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.prior import Prior, PriorMap, build_prior
+from occsim.samples import Sample, load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.trajectory import Trajectory
 from occsim.world import World, truth_cells
@@ -30,6 +31,7 @@ __all__ = [
     "ParameterError",
     "Prior",
     "PriorMap",
+    "Sample",
     "Sensor",
     "Trajectory",
     "TrajectoryError",
@@ -39,7 +41,9 @@ __all__ = [
     "collect_evidence",
     "fuse",
     "load_drawing",
+    "load_sample",
     "logit",
     "p_free_from_log_odds",
+    "sample_names",
     "truth_cells",
 ]
