@@ -1,0 +1,23 @@
+"""A drawing: the image an architect gives, and its safe loading from a file.
+
+Files are hostile until checked: sizes are read from the header before any pixel is
+decoded, only the formats of a short list are tried, and every failure becomes a
+`DrawingError` of one sentence.
+"""
+
+from occsim.drawing.image import load_drawing
+from occsim.drawing.model import Drawing
+from occsim.drawing.pdf import is_pdf, load_pdf_page, pdf_page_count
+from occsim.drawing.source import MAX_FILE_BYTES, MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
+
+__all__ = [
+    "MAX_FILE_BYTES",
+    "MAX_PIXELS",
+    "MAX_SIDE_PX",
+    "MIN_SIDE_PX",
+    "Drawing",
+    "is_pdf",
+    "load_drawing",
+    "load_pdf_page",
+    "pdf_page_count",
+]
