@@ -12,6 +12,15 @@ from occsim.evidence import EvidenceLog, collect_evidence
 from occsim.grid import Grid
 from occsim.logodds import logit, p_free_from_log_odds
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
+from occsim.metrics import (
+    Region,
+    ScoreCurves,
+    Scores,
+    coverage,
+    mean_entropy_bits,
+    score,
+    scores_by_reading,
+)
 from occsim.prior import Prior, PriorMap, build_prior
 from occsim.samples import Sample, load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
@@ -31,7 +40,10 @@ __all__ = [
     "ParameterError",
     "Prior",
     "PriorMap",
+    "Region",
     "Sample",
+    "ScoreCurves",
+    "Scores",
     "Sensor",
     "Trajectory",
     "TrajectoryError",
@@ -39,11 +51,15 @@ __all__ = [
     "World",
     "build_prior",
     "collect_evidence",
+    "coverage",
     "fuse",
     "load_drawing",
     "load_sample",
     "logit",
+    "mean_entropy_bits",
     "p_free_from_log_odds",
     "sample_names",
+    "score",
+    "scores_by_reading",
     "truth_cells",
 ]
