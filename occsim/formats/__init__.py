@@ -1,0 +1,1 @@
+"""Adapters between the library and outside formats, one module each."""

@@ -1,0 +1,191 @@
+"""The bytes that the player is sent hold the run exactly, and in the stated layout."""
+
+import struct
+import zlib
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occsim import EvidenceLog, Grid, ParameterError, Sensor, Trajectory
+from occsim.drawing import Drawing
+from occsim.formats.replay import (
+    PREVIEW_MAX_PX,
+    encode_preview,
+    pack_replay,
+    unpack_replay,
+)
+
+
+def blank(height: int, width: int) -> Drawing:
+    return Drawing(rgb=np.full((height, width, 3), 255, np.uint8))
+
+
+def log_of(grid: Grid, readings: list[dict[int, float]]) -> EvidenceLog:
+    """A log whose readings are given as cell -> log-odds."""
+    sizes = [len(reading) for reading in readings]
+    return EvidenceLog(
+        grid=grid,
+        indptr=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
+        cell=np.array([c for r in readings for c in r], np.int32),
+        log_odds=np.array([v for r in readings for v in r.values()], np.float64),
+    )
+
+
+def pack(log: EvidenceLog, is_wall=None, truth=None, poses=None, drawing=None) -> bytes:
+    grid = log.grid
+    nothing = np.zeros(grid.shape, np.bool_)
+    return pack_replay(
+        log,
+        is_wall=nothing if is_wall is None else is_wall,
+        truth=nothing if truth is None else truth,
+        trajectory=Trajectory(
+            poses=np.zeros((log.n_readings, 3)) if poses is None else poses
+        ),
+        sensor=Sensor(range_px=12.5, fov_rad=0.75),
+        drawing=drawing or blank(grid.height_px, grid.width_px),
+    )
+
+
+@st.composite
+def runs(draw):
+    grid = Grid(
+        height_px=draw(st.integers(1, 30)),
+        width_px=draw(st.integers(1, 30)),
+        cell_px=draw(st.integers(1, 7)),
+    )
+    cells = st.integers(0, grid.n_cells - 1)
+    values = st.floats(-3, 3, allow_nan=False)
+    readings = draw(
+        st.lists(st.dictionaries(cells, values, max_size=12), min_size=1, max_size=8)
+    )
+    flags = st.lists(st.booleans(), min_size=grid.n_cells, max_size=grid.n_cells)
+    classes = [np.array(draw(flags)).reshape(grid.shape) for _ in range(2)]
+    return log_of(grid, readings), *classes
+
+
+@given(runs())
+def test_unpacking_gives_back_what_was_packed(run):
+    """Entries may come in any order within a reading; the replay has them by cell."""
+    log, is_wall, truth = run
+    poses = np.arange(3.0 * log.n_readings).reshape(-1, 3) / 8
+    replay = unpack_replay(pack(log, is_wall, truth, poses))
+    order = np.lexsort((log.cell, log.reading))
+    assert replay.evidence.grid == log.grid
+    np.testing.assert_array_equal(replay.evidence.indptr, log.indptr)
+    np.testing.assert_array_equal(replay.evidence.cell, log.cell[order])
+    np.testing.assert_array_equal(replay.evidence.log_odds, log.log_odds[order])
+    np.testing.assert_array_equal(replay.is_wall, is_wall)
+    np.testing.assert_array_equal(replay.truth, truth)
+    np.testing.assert_array_equal(replay.poses, poses.astype(np.float32))
+    assert (replay.range_px, replay.fov_rad) == (12.5, 0.75)
+
+
+def test_bytes_follow_the_documented_layout():
+    """A 2 x 3 grid worked by hand.
+
+    Reading 1 updates cells 1, 2 (a run that skips 1) and 5 (a run that skips cells 3
+    and 4); reading 2 updates cell 0. The two log-odds -1 and 2 become indices 0 and 1.
+    Wall bits 100001 fill the high end of one byte: 0x84; truth 000010: 0x08.
+    """
+    grid = Grid(height_px=4, width_px=6, cell_px=2)
+    log = log_of(grid, [{1: 2.0, 2: -1.0, 5: 2.0}, {0: -1.0}])
+    is_wall = np.array([[1, 0, 0], [0, 0, 1]], np.bool_)
+    truth = np.array([[0, 0, 0], [0, 1, 0]], np.bool_)
+    poses = np.array([[1, 2, 0.5], [3, 4, 0.25]])
+    content = zlib.decompress(pack(log, is_wall, truth, poses))
+    preview = encode_preview(blank(4, 6))
+    expected = (
+        struct.pack("<4s3I", b"OGR1", 4, 6, 2)
+        + struct.pack("<4I", 2, 4, 3, 2)
+        + struct.pack("<4I", 1, len(preview), 0, 0)
+        + struct.pack("<2d", 12.5, 0.75)
+        + struct.pack("<2d", -1.0, 2.0)
+        + struct.pack("<6f", 1, 2, 0.5, 3, 4, 0.25)
+        + struct.pack("<2I", 2, 1)
+        + struct.pack("<3I", 1, 2, 0)
+        + struct.pack("<3I", 2, 1, 1)
+        + bytes([1, 0, 1, 0])
+        + bytes([0x84, 0x08])
+        + preview
+    )
+    assert content == expected
+
+
+@pytest.mark.parametrize(("n_values", "width"), [(256, 1), (257, 2), (65537, 4)])
+def test_value_indices_are_as_wide_as_the_values_need(n_values, width):
+    grid = Grid(height_px=300, width_px=300, cell_px=1)
+    readings = [dict(enumerate(np.linspace(-2, 2, n_values).tolist()))]
+    packed = pack(log_of(grid, readings))
+    assert struct.unpack_from("<I", zlib.decompress(packed), 32) == (width,)
+    np.testing.assert_array_equal(
+        unpack_replay(packed).evidence.log_odds, list(readings[0].values())
+    )
+
+
+def test_a_run_that_saw_nothing_is_a_replay_too():
+    log = log_of(Grid(height_px=3, width_px=3, cell_px=3), [{}, {}])
+    replay = unpack_replay(pack(log))
+    np.testing.assert_array_equal(replay.evidence.indptr, [0, 0, 0])
+    assert replay.evidence.cell.size == 0
+
+
+def decoded(preview: bytes):
+    return cv2.imdecode(np.frombuffer(preview, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def test_preview_of_a_grey_drawing_has_one_channel_and_sixteen_levels():
+    ramp = np.tile(np.arange(256, dtype=np.uint8)[None, :, None], (20, 1, 3))
+    picture = decoded(encode_preview(Drawing(rgb=ramp)))
+    assert picture.shape == (20, 256)
+    np.testing.assert_array_equal(np.unique(picture), np.arange(0, 256, 17))
+    assert np.abs(picture.astype(int) - ramp[:, :, 0]).max() <= 8
+
+
+def test_preview_keeps_colour_with_red_first_in_the_drawing():
+    red = np.zeros((9, 9, 3), np.uint8)
+    red[:, :, 0] = 255
+    picture = decoded(encode_preview(Drawing(rgb=red)))
+    np.testing.assert_array_equal(picture[4, 4], [0, 0, 255])  # OpenCV: blue first
+
+
+def test_preview_is_shrunk_with_its_aspect_kept():
+    picture = decoded(encode_preview(blank(1000, 3000)))
+    assert picture.shape == (400, PREVIEW_MAX_PX)
+
+
+def test_preview_of_a_noisy_scan_is_a_jpeg_smaller_than_its_png():
+    noise = np.random.default_rng(5).normal(200, 30, (800, 1000, 1))
+    rgb = np.repeat(np.clip(noise, 0, 255).astype(np.uint8), 3, axis=2)
+    assert encode_preview(Drawing(rgb=rgb))[:3] == b"\xff\xd8\xff"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"is_wall": np.zeros((1, 1), np.bool_)}, "is_wall must have the grid's shape"),
+        ({"truth": np.zeros((1, 1), np.bool_)}, "truth must have the grid's shape"),
+        ({"poses": np.zeros((3, 3))}, "one pose for each of the 2 readings; got 3"),
+        ({"drawing": blank(5, 5)}, r"the size of the grid, \(4, 6\) px; got \(5, 5\)"),
+    ],
+)
+def test_sizes_that_do_not_fit_are_refused(changes, message):
+    log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}, {1: 1.0}])
+    with pytest.raises(ParameterError, match=message):
+        pack(log, **changes)
+
+
+def test_bytes_that_are_no_replay_are_refused():
+    log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}])
+    content = zlib.decompress(pack(log))
+    for bad in (
+        b"",
+        b"no zlib stream",
+        zlib.compress(content[:40]),
+        zlib.compress(content[:90]),
+        zlib.compress(b"OGR9" + content[4:]),
+    ):
+        with pytest.raises(ParameterError, match="must be a replay of version 1"):
+            unpack_replay(bad)
