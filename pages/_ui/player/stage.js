@@ -1,0 +1,382 @@
+// The two canvases: the drawing with path, robot and cone, and the map beside it at the
+// same scale. Works in px of the drawing; one factor leads to the screen.
+
+const TWO_PI = 2 * Math.PI;
+const ROBOT_RADIUS = 5; // on the screen, px
+const HATCH_GAP = 5; // on the screen, px
+
+function rgbOf(hex) {
+  const n = parseInt(hex.slice(1), 16);
+  return [n >> 16, (n >> 8) & 255, n & 255];
+}
+
+function offscreen(width, height) {
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.max(1, width);
+  canvas.height = Math.max(1, height);
+  return canvas;
+}
+
+// Largest scale at which two pictures fit a box, side by side or one above the other.
+function arrange(box, size, gap, captionHeight) {
+  const beside = Math.min((box.width - gap) / 2 / size.width, box.height / size.height);
+  const half = (box.height - gap - captionHeight) / 2;
+  const above = Math.min(box.width / size.width, half / size.height);
+  return above > beside
+    ? { scale: above, stacked: true }
+    : { scale: beside, stacked: false };
+}
+
+class Stage {
+  constructor(root, colours) {
+    const pane = (name) => root.querySelector(`[data-pane=${name}] canvas`);
+    this.root = root;
+    this.element = root.querySelector(".stage");
+    this.canvases = { drawing: pane("drawing"), map: pane("map") };
+    this.colours = colours;
+    this.overlay = "none";
+    this.allCells = false;
+    this.hover = null;
+    this.pin = null;
+  }
+
+  async show(model) {
+    const preview = await createImageBitmap(new Blob([model.preview])).catch(() => null);
+    this.model = model;
+    this.preview?.close();
+    this.preview = preview;
+    this.cells = offscreen(model.nCols, model.nRows);
+    this.cellsContext = this.cells.getContext("2d");
+    this.image = this.cellsContext.createImageData(model.nCols, model.nRows);
+    this.pixels = new Uint32Array(this.image.data.buffer);
+    this.mask = offscreen(model.nCols, model.nRows);
+    this.hatched = null;
+    this.layout();
+  }
+
+  // Sizes of the canvases from the room that the page gives.
+  layout() {
+    const style = getComputedStyle(this.root);
+    const narrow = style.getPropertyValue("--arrangement").trim() === "column";
+    const height = parseFloat(style.getPropertyValue("--canvas-height"));
+    const width = this.element.clientWidth;
+    const { widthPx, heightPx } = this.model;
+    const size = { width: widthPx, height: heightPx };
+    const fit = narrow
+      ? { scale: Math.min(width / widthPx, height / heightPx), stacked: true }
+      : arrange({ width, height }, size, 16, 30);
+    this.scale = fit.scale;
+    this.element.dataset.stacked = fit.stacked ? "1" : "0";
+    this.ratio = Math.min(3, window.devicePixelRatio || 1);
+    for (const canvas of Object.values(this.canvases)) {
+      canvas.style.width = `${widthPx * this.scale}px`;
+      canvas.style.height = `${heightPx * this.scale}px`;
+      canvas.width = Math.round(widthPx * this.scale * this.ratio);
+      canvas.height = Math.round(heightPx * this.scale * this.ratio);
+    }
+    this.hatched = null;
+    this.scalePreview();
+  }
+
+  // Shrunk once: a good filter on every frame would cost more than all the rest.
+  scalePreview() {
+    const { width, height } = this.canvases.drawing;
+    this.paper = offscreen(width, height);
+    const context = this.paper.getContext("2d");
+    context.fillStyle = this.colours.paper;
+    context.fillRect(0, 0, width, height);
+    context.imageSmoothingQuality = "high";
+    if (this.preview) context.drawImage(this.preview, 0, 0, width, height);
+  }
+
+  // ---- colours of cells ----------------------------------------------------------
+
+  packed(hex, share = 1, [r, g, b] = [0, 0, 0]) {
+    const mix = rgbOf(hex).map((v, i) => Math.round(share * v + (1 - share) * [r, g, b][i]));
+    return (255 << 24) | (mix[2] << 16) | (mix[1] << 8) | mix[0];
+  }
+
+  prepareColours() {
+    const { colours } = this;
+    const [dark, light] = [rgbOf(colours.beliefOccupied), rgbOf(colours.beliefFree)];
+    this.grey = new Uint32Array(256);
+    this.tinted = new Uint32Array(256);
+    const tint = this.overlay === "truth" ? colours.groundTruth : colours.wallMask;
+    for (let i = 0; i < 256; i++) {
+      const rgb = dark.map((v, j) => Math.round(v + ((light[j] - v) * i) / 255));
+      this.grey[i] = (255 << 24) | (rgb[2] << 16) | (rgb[1] << 8) | rgb[0];
+      this.tinted[i] = this.packed(tint, 0.55, rgb);
+    }
+    this.verdict = [colours.hit, colours.falseWall, colours.missedWall, colours.free].map(
+      (hex) => this.packed(hex),
+    );
+    this.unseen = this.packed(colours.unseen);
+  }
+
+  beliefColour(c, marked) {
+    const level = Math.round(255 * pFreeOf(this.model.mapLogOdds(c)));
+    return marked && marked[c] ? this.tinted[level] : this.grey[level];
+  }
+
+  errorColour(c) {
+    const { model } = this;
+    if (model.counts[c] === 0 && !this.allCells) return this.unseen;
+    return this.verdict[countIndex(model.isOccupied(c), model.truth[c])];
+  }
+
+  marked() {
+    if (this.overlay === "wall_mask") return this.model.isWall;
+    return this.overlay === "truth" ? this.model.truth : null;
+  }
+
+  paintAll() {
+    this.prepareColours();
+    const errors = this.overlay === "errors";
+    const marked = this.marked();
+    for (let c = 0; c < this.pixels.length; c++) {
+      this.pixels[c] = errors ? this.errorColour(c) : this.beliefColour(c, marked);
+    }
+    this.stale = true;
+  }
+
+  // Recolours only the cells of these entries: what a step of the replay changed.
+  paintEntries([from, to]) {
+    if (to - from > this.pixels.length) {
+      this.paintAll();
+      return;
+    }
+    const errors = this.overlay === "errors";
+    const marked = this.marked();
+    for (let e = from; e < to; e++) {
+      const c = this.model.cell[e];
+      this.pixels[c] = errors ? this.errorColour(c) : this.beliefColour(c, marked);
+    }
+    this.stale = to > from || this.stale;
+  }
+
+  // ---- drawing -------------------------------------------------------------------
+
+  draw() {
+    if (!this.model) return;
+    this.drawDrawing();
+    this.drawMap();
+  }
+
+  begin(canvas) {
+    const context = canvas.getContext("2d");
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    return context;
+  }
+
+  // From here on, units are px of the drawing.
+  toDrawing(context) {
+    const k = this.scale * this.ratio;
+    context.setTransform(k, 0, 0, k, 0, 0);
+  }
+
+  drawDrawing() {
+    const context = this.begin(this.canvases.drawing);
+    context.drawImage(this.paper, 0, 0);
+    this.toDrawing(context);
+    this.drawPath(context);
+    this.drawSensor(context, true);
+    this.drawRobot(context);
+    this.drawMarks(context);
+  }
+
+  drawMap() {
+    const { canvases, model } = this;
+    if (this.stale) this.cellsContext.putImageData(this.image, 0, 0);
+    const context = this.begin(canvases.map);
+    context.imageSmoothingEnabled = false;
+    this.toDrawing(context);
+    const [width, height] = [model.nCols * model.cellPx, model.nRows * model.cellPx];
+    context.drawImage(this.cells, 0, 0, width, height);
+    if (this.overlay === "errors") this.drawHatch(context);
+    this.stale = false;
+    this.drawSensor(context, false);
+    this.drawRobot(context);
+    this.drawMarks(context);
+  }
+
+  drawHatch(context) {
+    if (this.stale || !this.hatched) this.renewHatch();
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.drawImage(this.hatched, 0, 0);
+    this.toDrawing(context);
+  }
+
+  // Hatching on unseen cells: a pattern kept where the cells' mask is opaque.
+  renewHatch() {
+    const { width, height } = this.canvases.map;
+    const { model } = this;
+    const maskContext = this.mask.getContext("2d");
+    const mask = maskContext.createImageData(model.nCols, model.nRows);
+    const alpha = new Uint32Array(mask.data.buffer);
+    for (let c = 0; c < alpha.length; c++) alpha[c] = model.counts[c] ? 0 : 255 << 24;
+    maskContext.putImageData(mask, 0, 0);
+    this.hatched ??= offscreen(width, height);
+    const context = this.hatched.getContext("2d");
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.globalCompositeOperation = "source-over";
+    context.clearRect(0, 0, width, height);
+    context.imageSmoothingEnabled = false;
+    this.toDrawing(context);
+    const side = model.cellPx;
+    context.drawImage(this.mask, 0, 0, model.nCols * side, model.nRows * side);
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.globalCompositeOperation = "source-in";
+    context.fillStyle = this.hatchPattern(context);
+    context.fillRect(0, 0, width, height);
+  }
+
+  hatchPattern(context) {
+    const side = Math.round(HATCH_GAP * this.ratio);
+    const tile = offscreen(side, side);
+    const pen = tile.getContext("2d");
+    pen.strokeStyle = this.colours.unseenHatch;
+    pen.lineWidth = this.ratio * 0.8;
+    pen.beginPath();
+    for (const shift of [-side, 0, side]) {
+      pen.moveTo(shift, side);
+      pen.lineTo(shift + side, 0);
+    }
+    pen.stroke();
+    return context.createPattern(tile, "repeat");
+  }
+
+  pose(index) {
+    return this.model.poses.subarray(3 * index, 3 * index + 3);
+  }
+
+  // The pose of the reading just taken; before the first, the pose that waits.
+  current() {
+    return this.pose(Math.max(0, this.model.step - 1));
+  }
+
+  trace(context, from, to) {
+    context.beginPath();
+    for (let i = from; i < to; i++) {
+      const [x, y] = this.pose(i);
+      if (i === from) context.moveTo(x, y);
+      else context.lineTo(x, y);
+    }
+    context.stroke();
+  }
+
+  drawPath(context) {
+    const { model, scale, colours } = this;
+    const here = Math.max(0, model.step - 1);
+    context.lineJoin = "round";
+    context.strokeStyle = colours.path;
+    context.globalAlpha = 0.28;
+    context.lineWidth = 1.2 / scale;
+    this.trace(context, here, model.nReadings);
+    context.globalAlpha = 0.9;
+    context.lineWidth = 1.6 / scale;
+    this.trace(context, 0, here + 1);
+    context.globalAlpha = 1;
+  }
+
+  drawSensor(context, filled) {
+    const { model, scale, colours } = this;
+    const [x, y, theta] = this.current();
+    const half = model.fovRad / 2;
+    context.beginPath();
+    if (model.fovRad < TWO_PI - 1e-6) context.moveTo(x, y);
+    context.arc(x, y, model.rangePx, theta - half, theta + half);
+    if (model.fovRad < TWO_PI - 1e-6) context.closePath();
+    context.fillStyle = colours.sensor;
+    context.globalAlpha = model.step === 0 ? 0.08 : 0.18;
+    if (filled) context.fill();
+    context.globalAlpha = 0.75;
+    context.strokeStyle = colours.halo;
+    context.lineWidth = 3 / scale;
+    context.stroke();
+    context.globalAlpha = 1;
+    context.strokeStyle = colours.sensor;
+    context.lineWidth = 1.5 / scale;
+    context.setLineDash([4 / scale, 3 / scale]);
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  drawRobot(context) {
+    const { scale, colours } = this;
+    const [x, y, theta] = this.current();
+    const radius = ROBOT_RADIUS / scale;
+    context.beginPath();
+    context.arc(x, y, radius, 0, TWO_PI);
+    context.fillStyle = colours.robot;
+    context.fill();
+    context.strokeStyle = colours.halo;
+    context.lineWidth = 1.5 / scale;
+    context.stroke();
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(x + radius * Math.cos(theta), y + radius * Math.sin(theta));
+    context.stroke();
+  }
+
+  drawMarks(context) {
+    if (this.pin !== null) this.drawPin(context);
+    if (this.hover !== null) this.drawCrosshair(context);
+  }
+
+  cellBox(c) {
+    const { cellPx, nCols } = this.model;
+    return { x: (c % nCols) * cellPx, y: Math.floor(c / nCols) * cellPx, side: cellPx };
+  }
+
+  drawPin(context) {
+    const { scale, colours } = this;
+    const { x, y, side } = this.cellBox(this.pin);
+    const room = 2.5 / scale;
+    const box = [x - room, y - room, side + 2 * room, side + 2 * room];
+    context.strokeStyle = colours.halo;
+    context.lineWidth = 4 / scale;
+    context.strokeRect(...box);
+    context.strokeStyle = colours.crosshair;
+    context.lineWidth = 2 / scale;
+    context.strokeRect(...box);
+  }
+
+  drawCrosshair(context) {
+    const { model, scale, colours } = this;
+    const { x, y, side } = this.cellBox(this.hover);
+    const [midX, midY] = [x + side / 2, y + side / 2];
+    context.strokeStyle = colours.crosshair;
+    context.lineWidth = 1 / scale;
+    context.globalAlpha = 0.55;
+    context.beginPath();
+    for (const [x0, y0, x1, y1] of [
+      [0, midY, x, midY],
+      [x + side, midY, model.widthPx, midY],
+      [midX, 0, midX, y],
+      [midX, y + side, midX, model.heightPx],
+    ]) {
+      context.moveTo(x0, y0);
+      context.lineTo(x1, y1);
+    }
+    context.stroke();
+    context.globalAlpha = 1;
+    context.lineWidth = 1.5 / scale;
+    context.strokeRect(x, y, side, side);
+  }
+
+  // The flat cell under a pointer event on one of the canvases, or null.
+  cellAt(event) {
+    const { model } = this;
+    if (!model) return null;
+    const box = event.target.getBoundingClientRect();
+    const x = ((event.clientX - box.left) / box.width) * model.widthPx;
+    const y = ((event.clientY - box.top) / box.height) * model.heightPx;
+    if (x < 0 || y < 0 || x >= model.widthPx || y >= model.heightPx) return null;
+    return Math.floor(y / model.cellPx) * model.nCols + Math.floor(x / model.cellPx);
+  }
+
+  dispose() {
+    this.preview?.close();
+    this.model = null;
+  }
+}
