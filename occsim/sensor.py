@@ -14,6 +14,21 @@ P_FREE_MAX = 0.9
 P_FREE_MIN = 0.1
 """Ends of the inverse sensor model, Eq. 4.22: entirely empty, entirely object."""
 
+EDGE_EPS = 1e-9
+"""Tolerance of every edge of the field of view, px on distances and rad on bearings.
+
+A pixel centre exactly at reach r, on the side of the cone, or in line with a wall's
+corner must not be decided by the last bit of a cosine: the field of view reaches this
+much further, and walls are this much wider (a ray that grazes a corner is stopped).
+Far above rounding (1e-13 at 1,000 px), far below what can be seen.
+"""
+
+OWN_PIXEL_EPS_PX = 5e-7
+"""A pixel centre this near the robot is the robot's own: it has no bearing."""
+
+SURFACE_DEPTH_PX = 1.5
+"""With BehindHit.UNSEEN: how far beyond the hit a wall pixel's centre may lie."""
+
 
 class BehindHit(Enum):
     """What the sensor says of pixels in view behind the wall it meets."""
@@ -56,7 +71,7 @@ class Sensor:
                 f"range_px must be above 0 and finite; got {self.range_px!r}"
             )
         # A slider in degrees may land a rounding error beyond the full circle.
-        if not 0.0 < self.fov_rad <= 2.0 * np.pi + 1e-9:
+        if not 0.0 < self.fov_rad <= 2.0 * np.pi + EDGE_EPS:
             raise ParameterError(f"fov_rad must lie in (0, 2 pi]; got {self.fov_rad!r}")
         if not isinstance(self.behind_hit, BehindHit):
             raise ParameterError(
