@@ -1,0 +1,67 @@
+from dataclasses import fields
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from occsim import BehindHit, Region, UpdateRule
+from pages._ui.settings import (
+    CHOICES,
+    TABLE,
+    Overlay,
+    Settings,
+    decode,
+    encode,
+    with_changes,
+)
+
+
+def bounded(name):
+    """Any value that a numeric setting allows."""
+    low, high = TABLE[name].low, TABLE[name].high
+    if isinstance(getattr(Settings(), name), int):
+        return st.integers(int(low), int(high))
+    return st.floats(low, high)
+
+
+ANY_SETTINGS = st.builds(
+    Settings,
+    **{name: bounded(name) for name in ("cell_px", "range_px", "fov_deg")},
+    **{name: bounded(name) for name in ("wall_share", "truth_share")},
+    **{name: bounded(name) for name in ("p_wall", "p_space")},
+    behind_hit=st.sampled_from(BehindHit),
+    clear_no_hit=st.booleans(),
+    uninformative=st.booleans(),
+    rule=st.sampled_from(UpdateRule),
+    region=st.sampled_from(Region),
+    overlay=st.sampled_from(Overlay),
+)
+
+
+@given(ANY_SETTINGS)
+def test_settings_survive_the_round_trip_through_a_link(settings):
+    assert decode(encode(settings)) == settings
+
+
+@given(st.dictionaries(st.sampled_from([*TABLE, "other"]), st.text()))
+def test_a_damaged_link_gives_valid_settings(query):
+    settings = decode(query)
+    assert decode(encode(settings)) == settings
+
+
+def test_defaults_need_no_link():
+    assert encode(Settings()) == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("cell_px", 0), ("fov_deg", 361), ("p_wall", 1.4)]
+)
+def test_a_value_out_of_bounds_is_refused_with_a_reason(name, value):
+    with pytest.raises(ValueError, match=rf"{name} must lie in .*; got {value}"):
+        with_changes(Settings(), {name: value})
+
+
+def test_every_setting_is_declared_and_every_choice_has_words():
+    assert set(TABLE) == {field.name for field in fields(Settings)}
+    for kind in (BehindHit, UpdateRule, Region, Overlay):
+        assert set(kind) <= set(CHOICES)
