@@ -25,6 +25,7 @@ from occsim.prior import Prior, PriorMap, build_prior
 from occsim.samples import Sample, load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.trajectory import Trajectory
+from occsim.trajectory_files import TrajectoryFormat, dump_trajectory, load_trajectory
 from occsim.world import World, truth_cells
 
 __version__ = "0.1.0"
@@ -47,14 +48,17 @@ __all__ = [
     "Sensor",
     "Trajectory",
     "TrajectoryError",
+    "TrajectoryFormat",
     "UpdateRule",
     "World",
     "build_prior",
     "collect_evidence",
     "coverage",
+    "dump_trajectory",
     "fuse",
     "load_drawing",
     "load_sample",
+    "load_trajectory",
     "logit",
     "mean_entropy_bits",
     "p_free_from_log_odds",

@@ -1,0 +1,101 @@
+"""A trajectory from a file of any of the formats."""
+
+from pathlib import Path
+
+from occsim.drawing.source import read_source
+from occsim.errors import TrajectoryError
+from occsim.trajectory import Trajectory
+from occsim.trajectory_files.arrays import (
+    HDF5_MARK,
+    MATLAB_5_MARK,
+    MATLAB_73_MARK,
+    NPY_MARK,
+    parse_json,
+    parse_mat,
+    parse_npy,
+)
+from occsim.trajectory_files.table import MAX_FILE_BYTES, TrajectoryTable
+from occsim.trajectory_files.text import parse_text
+
+
+def load_trajectory(
+    source: bytes | str | Path,
+    *,
+    name: str | None = None,
+    degrees: bool | None = None,
+) -> Trajectory:
+    """Return the trajectory in a CSV, plain text, NPY, MAT, JSON or TUM file.
+
+    Parameters
+    ----------
+    source : bytes, str or Path
+        The file's content, or where it is.
+    name : str, optional
+        The file's name, for messages and to tell MAT 4 and TUM files by their
+        suffix.
+    degrees : bool, optional
+        Whether headings are in degrees; overrides what the file says. By default
+        what the file says (``theta_deg``, ``theta [rad]``); where it says nothing,
+        radians, as long as every heading lies within one turn either way.
+
+    Returns
+    -------
+    Trajectory
+        Positions in px as they stand in the file, headings in radians.
+
+    Raises
+    ------
+    TrajectoryError
+        Where the file is missing, empty, over 20 MB or 50,000 poses, damaged or of
+        another format; where a row has too few columns, a word, NaN or an infinite
+        number; where positions are in metres; where the headings' unit has to be
+        asked for.
+
+    Notes
+    -----
+    A TUM file is read as it stands too, one px a unit and y down, as
+    `dump_trajectory` writes it. For metres with y up use
+    :func:`occsim.formats.metric.poses_to_image`.
+    """
+    return read_trajectory_table(source, name=name).to_trajectory(degrees)
+
+
+def read_trajectory_table(
+    source: bytes | str | Path, *, name: str | None = None
+) -> TrajectoryTable:
+    """Return the numbers of a trajectory file, and what it says of their units.
+
+    Parameters
+    ----------
+    source : bytes, str or Path
+        The file's content, or where it is.
+    name : str, optional
+        As in `load_trajectory`.
+
+    Returns
+    -------
+    TrajectoryTable
+        Its `needs_angle_unit` tells whether to ask for degrees or radians.
+
+    Raises
+    ------
+    TrajectoryError
+        As in `load_trajectory`.
+    """
+    data, file_name = read_source(
+        source,
+        what="trajectory",
+        needed="a table of x, y, theta",
+        max_bytes=MAX_FILE_BYTES,
+        error=TrajectoryError,
+    )
+    name = name or file_name
+    if data.startswith(NPY_MARK):
+        return parse_npy(data, name)
+    marks = (MATLAB_5_MARK, MATLAB_73_MARK, HDF5_MARK)
+    if data.startswith(marks) or name.lower().endswith(".mat"):
+        return parse_mat(data, name)
+    start = data[:200].removeprefix(b"\xef\xbb\xbf").lstrip()
+    if start.startswith((b"[", b"{")) or name.lower().endswith(".json"):
+        return parse_json(data, name)
+    return parse_text(data, name)

@@ -1,0 +1,316 @@
+"""Trajectories: validation, poses off the floor, and files of every format."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+import scipy.io
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from occsim.errors import ParameterError, TrajectoryError
+from occsim.trajectory import Trajectory, inside_walls, outside, without
+from occsim.trajectory_files import (
+    MAX_POSES,
+    TrajectoryFormat,
+    dump_trajectory,
+    load_trajectory,
+    read_trajectory_table,
+)
+from occsim.trajectory_files.arrays import MAX_INFLATED_BYTES
+from occsim.world import World
+
+TWO = [[1.5, 2.5, 0.5], [3.0, 4.25, -1.25]]
+"""Two poses, headings in radians, that binary fractions hold exactly."""
+
+TWO_DEG = [[1.5, 2.5, 90.0], [3.0, 4.25, 270.0]]
+TWO_DEG_IN_RAD = [[1.5, 2.5, np.pi / 2], [3.0, 4.25, 1.5 * np.pi]]
+
+poses = arrays(
+    np.float64,
+    st.tuples(st.integers(1, 12), st.just(3)),
+    elements=st.floats(-1e4, 1e4, allow_subnormal=False),
+)
+
+
+def test_poses_are_checked_and_copied():
+    given_poses = np.array(TWO)
+    trajectory = Trajectory(poses=given_poses)
+    given_poses[0, 0] = 99.0
+    assert trajectory.poses.tolist() == TWO
+    with pytest.raises(TrajectoryError, match=r"got shape \(2, 2\)"):
+        Trajectory(poses=np.zeros((2, 2)))
+    with pytest.raises(TrajectoryError, match="pose 2 is"):
+        Trajectory(poses=[[0, 0, 0], [0, np.nan, 0]])
+
+
+def test_poses_outside_and_in_walls_are_marked_and_dropped():
+    """A 3 x 4 world with its right column wall; pixel (r, c) covers [c, c+1) x .."""
+    occupied = np.zeros((3, 4), bool)
+    occupied[:, 3] = True
+    world = World(occupied=occupied)
+    trajectory = Trajectory(
+        poses=[[0, 0, 0], [3.0, 1, 0], [2.999, 1, 0], [4.0, 1, 0], [1, -0.1, 0]]
+    )
+    assert outside(trajectory, world).tolist() == [False, False, False, True, True]
+    assert inside_walls(trajectory, world).tolist() == [False, True] + [False] * 3
+    drop = outside(trajectory, world) | inside_walls(trajectory, world)
+    assert without(trajectory, drop).poses[:, 0].tolist() == [0.0, 2.999]
+    with pytest.raises(TrajectoryError, match="all 5 poses"):
+        without(trajectory, np.ones(5, bool))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x,y,theta\n1.5,2.5,0.5\n3,4.25,-1.25\n",
+        "1.5,2.5,0.5\n3,4.25,-1.25",
+        "1.5, 2.5, 0.5\r\n3, 4.25, -1.25\r\n\r\n",
+        "1.5 2.5 0.5\n3 4.25 -1.25\n",
+        "  1.5\t2.5\t0.5\n3\t4.25\t-1.25\n",
+        "1.5;2.5;0.5;\n3;4.25;-1.25;\n",
+        "1,5;2,5;0,5\n3;4,25;-1,25\n",
+        "1,5 2,5 0,5\n3 4,25 -1,25\n",
+        "# a comment\n\n1.5,2.5,5e-1\n% another\n+3,4.25,-1.25\n",
+        "theta_rad,name,y_px,x_px\n0.5,a door,2.5,1.5\n-1.25,,4.25,3\n",
+        "Y [px];Heading (rad);X [px]\n2,5;0,5;1,5\n4,25;-1,25;3\n",
+        "# x y theta\n1.5 2.5 0.5\n3 4.25 -1.25\n",
+        '"x","y","yaw"\n"1.5","2.5","0.5"\n"3","4.25","-1.25"\n',
+        "pos_x\tpos_y\torientation\n1.5\t2.5\t0.5\n3\t4.25\t-1.25\n",
+        "[[1.5, 2.5, 0.5], [3, 4.25, -1.25]]",
+        '{"poses": [[1.5, 2.5, 0.5], [3, 4.25, -1.25]]}',
+        '[{"theta": 0.5, "x": 1.5, "y": 2.5}, {"x": 3, "y": 4.25, "theta": -1.25}]',
+    ],
+)
+def test_text_is_read_however_it_is_laid_out(text):
+    assert load_trajectory(text.encode()).poses.tolist() == TWO
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "latin-1"])
+def test_other_encodings_are_read(encoding):
+    text = "x;y;theta [°]\n1.5;2.5;90\n3;4.25;270\n"
+    loaded = load_trajectory(text.encode(encoding))
+    np.testing.assert_allclose(loaded.poses, TWO_DEG_IN_RAD, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("title", "degrees"),
+    [
+        ("theta", None),
+        ("theta_deg", True),
+        ("theta [degrees]", True),
+        ("Theta (°)", True),
+        ("θ/rad", False),
+        ("yaw_rad", False),
+        ("heading rad", False),
+    ],
+)
+def test_header_says_the_unit_of_headings(title, degrees):
+    table = read_trajectory_table(f"x,y,{title}\n1,2,3\n".encode())
+    assert table.degrees is degrees
+    assert table.needs_angle_unit == (degrees is None)
+    assert table.values.tolist() == [[1, 2, 3]]
+
+
+def test_caller_decides_the_unit_over_the_file():
+    data = b"x,y,theta_deg\n1.5,2.5,90\n3,4.25,270\n"
+    np.testing.assert_allclose(load_trajectory(data).poses, TWO_DEG_IN_RAD)
+    assert load_trajectory(data, degrees=False).poses.tolist() == TWO_DEG
+    bare = b"1.5,2.5,90\n3,4.25,270\n"
+    np.testing.assert_allclose(
+        load_trajectory(bare, degrees=True).poses, TWO_DEG_IN_RAD
+    )
+
+
+def test_headings_beyond_a_turn_without_a_unit_are_asked_about():
+    with pytest.raises(TrajectoryError, match="pose 2 has 270, beyond one turn"):
+        load_trajectory(b"0,0,1\n3,4.25,270\n0,0,90\n")
+    assert load_trajectory(b"0,0,6.2832\n").poses[0, 2] == 6.2832
+
+
+def test_file_on_disk_is_read_by_path(tmp_path):
+    path = tmp_path / "walk.csv"
+    path.write_text("1.5,2.5,0.5\n3,4.25,-1.25\n")
+    assert load_trajectory(path).poses.tolist() == TWO
+    assert load_trajectory(str(path)).poses.tolist() == TWO
+    with pytest.raises(TrajectoryError, match="none.csv cannot be opened"):
+        load_trajectory(tmp_path / "none.csv")
+
+
+def test_tum_quaternions_become_headings():
+    """Yaw of a turn by a about z is a: qz = sin(a/2), qw = cos(a/2)."""
+    half = np.sqrt(0.5)
+    text = f"# made by hand\n0.0 10 20 5 0 0 0 1\n1.5 11 21 5 0 0 {half} {half}\n"
+    expected = [[10, 20, 0], [11, 21, np.pi / 2]]
+    np.testing.assert_allclose(load_trajectory(text.encode()).poses, expected)
+    with pytest.raises(TrajectoryError, match="line 1: the quaternion"):
+        load_trajectory(b"0 1 2 3 0 0 0 0", name="a.tum")
+
+
+def npy(values, **options) -> bytes:
+    out = io.BytesIO()
+    np.save(out, values, **options)
+    return out.getvalue()
+
+
+def mat(variables: dict, **options) -> bytes:
+    out = io.BytesIO()
+    scipy.io.savemat(out, variables, **options)
+    return out.getvalue()
+
+
+def test_arrays_of_any_real_type_and_order_are_read():
+    for dtype in (np.float32, ">f8", np.float64):
+        assert load_trajectory(npy(np.array(TWO, dtype))).poses.tolist() == TWO
+    assert load_trajectory(npy(np.asfortranarray(TWO))).poses.tolist() == TWO
+    whole = np.array([[1, 2, 3]], np.int16)
+    assert load_trajectory(npy(whole)).poses.tolist() == [[1, 2, 3]]
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_matlab_array_of_any_name_is_read(compressed):
+    data = mat({"s": 4.0, "R": np.array(TWO)}, do_compression=compressed)
+    assert load_trajectory(data).poses.tolist() == TWO
+    both = mat({"other": np.ones((2, 3)), "poses": np.array(TWO)})
+    assert load_trajectory(both).poses.tolist() == TWO
+    old = mat({"R": np.array(TWO)}, format="4")
+    assert load_trajectory(old, name="old.mat").poses.tolist() == TWO
+    degrees = mat({"trajectory_deg": np.array(TWO_DEG)})
+    np.testing.assert_allclose(load_trajectory(degrees).poses, TWO_DEG_IN_RAD)
+
+
+BAD_FILES = [
+    (b"", "empty"),
+    (b"\n\n# nothing\n", "no poses"),
+    (b"x,y,theta\n", "no poses"),
+    (b"1,2,3\n4,five,6\n", "line 2: y must be a finite number; got 'five'"),
+    (b"x,y,theta\n1,2,nan\n", "line 2: theta must be a finite number; got 'nan'"),
+    (b"1,2,3\n\n4,inf,6\n", "line 3: y"),
+    (b"1,2,\n", "line 1: three columns"),
+    (b"x,y,theta\n1,2\n", "line 2: 3 columns are needed; got 2: '1', '2'"),
+    (b"1,2\n3,4\n", "line 1: three columns x, y, theta are needed"),
+    (b"1,2,3,4\n", "or a header that names them; got 4 columns"),
+    (b"a,b,c\n1,2,3\n", "must name the columns x, y and theta"),
+    (b"x_m,y_m,theta\n1,2,3\n", "in metres; px in the drawing are needed"),
+    (b"hello", "must name the columns"),
+    (b"1,2,3\n" * 100_000, "has 100,000 poses; at most 50,000"),
+    (b"1,2,3\n" * 4_000_000, "24.0 MB; at most 20 MB"),
+    (bytes(300), "not a text file"),
+    (b"\xff\xfe\x00", "not a text file"),
+    (b"\x80\x04\x95pickle", "not a text file"),
+    (b"PK\x03\x04" + bytes(60), "not a text file"),
+    (b"[[1, 2, 3", "not valid JSON"),
+    (b"[" * 100_000, "not valid JSON"),
+    (b"[]", "no poses"),
+    (b"{}", "must hold a list of poses"),
+    (b"[1, 2, 3]", "pose 1: a list of 3 numbers is needed; got 1"),
+    (b"[[1, 2, 3], [1, 2]]", "pose 2: a list of 3 numbers"),
+    (b'[[1, 2, "3"]]', "pose 1: every value must be a number"),
+    (b"[[1, 2, true]]", "pose 1: every value must be a number"),
+    (b"[[1, 2, NaN]]", "pose 1: every number must be finite"),
+    (b"[[1, 2, 1" + b"0" * 400 + b"]]", "pose 1: every number must be finite"),
+    (b'[{"x": 1, "y": 2, "theta": 3}, {"x": 1}]', "pose 2: the keys"),
+    (b'[{"x": 1, "y": 2}]', "must have x, y and theta"),
+    (b'{"poses": [[1, 2, 3]], "columns": 5}', "must have x, y and theta"),
+    (npy(np.zeros((3, 2))), r"shape \(S, 3\), rows of x, y, theta; got \(3, 2\)"),
+    (npy(np.zeros((0, 3))), "no poses"),
+    (npy(np.zeros((MAX_POSES + 1, 3), np.int8)), "at most 50,000"),
+    (npy(np.full((2, 3), np.inf)), "pose 1: every number must be finite"),
+    (npy(np.zeros((2, 3), complex)), "real numbers; got complex128"),
+    (npy(np.array([[{}, 1, 2]], object), allow_pickle=True), "real numbers"),
+    (npy(np.zeros((9, 3)))[:-8], "cut short"),
+    (b"\x93NUMPY\x01\x00", "header of .* is damaged"),
+    (b"\x93NUMPY\x01\x00\x06\x00(((((\n", "header of .* is damaged"),
+    (b"\x89HDF\r\n\x1a\n" + bytes(99), "MATLAB 7.3"),
+    (mat({"a": np.ones((4, 2))}), r"must hold one array .* got a \(4, 2\)"),
+    (mat({"a": np.ones((2, 3)), "b": np.ones((2, 3))}), "or one called trajectory"),
+    (mat({"a": np.array([["abc"]])}), "must hold one array"),
+    (mat({"a": np.ones((2, 3))})[:180], "damaged"),
+    (mat({"a": np.ones((2, 3)) * 1j}), "real numbers"),
+]
+
+
+@pytest.mark.parametrize(("data", "said"), BAD_FILES, ids=range(len(BAD_FILES)))
+def test_bad_file_is_refused_in_one_sentence(data, said):
+    with pytest.raises(TrajectoryError, match=said) as caught:
+        load_trajectory(data)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 320
+
+
+def test_matlab_file_that_unpacks_without_end_is_refused():
+    """100 MB of zeros pack into 100 kB."""
+    data = mat({"a": np.zeros(MAX_INFLATED_BYTES, np.uint8)}, do_compression=True)
+    assert len(data) < 200_000
+    with pytest.raises(TrajectoryError, match="unpacks to more than 100 MB"):
+        load_trajectory(data)
+
+
+@pytest.mark.parametrize("file_format", list(TrajectoryFormat))
+@given(values=poses)
+def test_every_format_gives_back_what_was_written(file_format, values):
+    trajectory = Trajectory(poses=values)
+    name = f"a.{file_format.value}"
+    loaded = load_trajectory(
+        dump_trajectory(trajectory, file_format), name=name, degrees=False
+    ).poses
+    if file_format is TrajectoryFormat.TUM:
+        np.testing.assert_array_equal(loaded[:, :2], values[:, :2])
+        turn = np.exp(1j * loaded[:, 2]) - np.exp(1j * values[:, 2])
+        np.testing.assert_allclose(np.abs(turn), 0.0, atol=1e-9)
+    else:
+        np.testing.assert_array_equal(loaded, values)
+
+
+@pytest.mark.parametrize("file_format", list(TrajectoryFormat))
+def test_degrees_are_written_and_the_file_says_so(file_format):
+    data = dump_trajectory(Trajectory(poses=TWO_DEG_IN_RAD), file_format, degrees=True)
+    table = read_trajectory_table(data, name=f"a.{file_format.value}")
+    says = {TrajectoryFormat.NPY: None, TrajectoryFormat.TUM: False}
+    assert table.degrees is says.get(file_format, True)
+    if file_format is not TrajectoryFormat.TUM:
+        np.testing.assert_allclose(table.values, TWO_DEG, rtol=1e-15)
+
+
+def test_unknown_format_is_refused():
+    with pytest.raises(ParameterError, match="must be a TrajectoryFormat; got 'xls'"):
+        dump_trajectory(Trajectory(poses=TWO), "xls")
+
+
+@given(
+    data=st.binary(max_size=200) | st.text("0123,.; \t\nxy#[]{}\"'-e").map(str.encode)
+)
+def test_any_bytes_are_read_or_refused(data):
+    message = ""
+    try:
+        load_trajectory(data)
+    except TrajectoryError as error:  # any other error fails the test
+        message = str(error)
+    assert "\n" not in message
+
+
+@given(
+    data=st.sampled_from(
+        [
+            mat({"a": np.array(TWO)}, do_compression=True),
+            mat({"a": np.array(TWO)}),
+            npy(np.array(TWO)),
+            json.dumps(TWO).encode(),
+        ]
+    ),
+    flips=st.lists(
+        st.tuples(st.integers(0, 400), st.integers(0, 255)), min_size=1, max_size=6
+    ),
+)
+def test_damaged_files_are_read_or_refused(data, flips):
+    damaged = bytearray(data)
+    for position, value in flips:
+        damaged[position % len(damaged)] = value
+    message = ""
+    try:
+        load_trajectory(bytes(damaged), name="a.mat" if data[:6] == b"MATLAB" else "a")
+    except TrajectoryError as error:  # any other error fails the test
+        message = str(error)
+    assert len(message) < 320
