@@ -24,6 +24,15 @@ from occsim.metrics import (
 from occsim.prior import Prior, PriorMap, build_prior
 from occsim.samples import Sample, load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
+from occsim.sweep import (
+    Objective,
+    PriorSurface,
+    PriorSweep,
+    interpolate,
+    maxima,
+    prior_surface,
+    sweep_priors,
+)
 from occsim.trajectory import Trajectory
 from occsim.trajectory_files import TrajectoryFormat, dump_trajectory, load_trajectory
 from occsim.world import World, truth_cells
@@ -36,11 +45,14 @@ __all__ = [
     "DrawingError",
     "EvidenceLog",
     "Grid",
+    "Objective",
     "OccsimError",
     "OccupancyMap",
     "ParameterError",
     "Prior",
     "PriorMap",
+    "PriorSurface",
+    "PriorSweep",
     "Region",
     "Sample",
     "ScoreCurves",
@@ -56,14 +68,18 @@ __all__ = [
     "coverage",
     "dump_trajectory",
     "fuse",
+    "interpolate",
     "load_drawing",
     "load_sample",
     "load_trajectory",
     "logit",
+    "maxima",
     "mean_entropy_bits",
     "p_free_from_log_odds",
+    "prior_surface",
     "sample_names",
     "score",
     "scores_by_reading",
+    "sweep_priors",
     "truth_cells",
 ]
