@@ -1,0 +1,124 @@
+"""Small operations on binary pictures: uint8, one where the thing is, else zero."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
+
+
+def as_bytes(mask: BoolArray | ByteArray) -> ByteArray:
+    """Return a mask as contiguous uint8 of zeros and ones (OpenCV refuses bool)."""
+    return np.ascontiguousarray(mask, dtype=np.uint8)
+
+
+def box(width_px: float, height_px: float | None = None) -> ByteArray:
+    """Return a rectangular kernel, at least one pixel each way."""
+    height_px = width_px if height_px is None else height_px
+    return np.ones((max(round(height_px), 1), max(round(width_px), 1)), np.uint8)
+
+
+def opened(mask: ByteArray, kernel: ByteArray) -> ByteArray:
+    """Return the pixels that a kernel inside the mask can cover."""
+    # The border counts as more of the same, so that walls may run off the sheet.
+    return _bytes(cv2.morphologyEx(mask, cv2.MORPH_OPEN, kernel))
+
+
+def closed(mask: ByteArray, kernel: ByteArray) -> ByteArray:
+    """Return the mask with what the kernel cannot enter filled in."""
+    return _bytes(cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel))
+
+
+def dilated(mask: ByteArray, kernel: ByteArray) -> ByteArray:
+    """Return the pixels that the kernel, moved over the mask, covers."""
+    return _bytes(cv2.dilate(mask, kernel))
+
+
+def _bytes(image: object) -> ByteArray:
+    return np.asarray(image, dtype=np.uint8)
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """Connected components of a mask; number 0 is what lies outside the mask.
+
+    Parameters
+    ----------
+    labels : ndarray of int32, shape (H, W)
+        Number of the component of each pixel.
+    left, top, width, height, area : ndarray of int64, shape (N,)
+        Bounding boxes and pixel counts, px.
+    """
+
+    labels: IntArray
+    left: IntArray
+    top: IntArray
+    width: IntArray
+    height: IntArray
+    area: IntArray
+
+    @property
+    def count(self) -> int:
+        """Number of components, with what lies outside the mask."""
+        return len(self.area)
+
+    @property
+    def longest(self) -> IntArray:
+        """Longer side of each bounding box, px."""
+        return np.maximum(self.width, self.height)
+
+    def total(self, image: ByteArray | FloatArray) -> FloatArray:
+        """Return the sum of an image over each component, shape (N,)."""
+        weights = image.ravel().astype(np.float64)
+        sums = np.bincount(self.labels.ravel(), weights, self.count)
+        return np.asarray(sums, dtype=np.float64)
+
+    def chosen(self, which: BoolArray) -> ByteArray:
+        """Return the mask of the components for which `which` is true."""
+        table = as_bytes(which)
+        table[0] = 0
+        return table[self.labels]
+
+
+def components(mask: ByteArray, connectivity: int = 8) -> Components:
+    """Return the connected components of a mask."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(
+        mask, connectivity=connectivity
+    )
+    left, top, width, height, area = np.asarray(stats, dtype=np.int64).T
+    return Components(np.asarray(labels), left, top, width, height, area)
+
+
+def depth(mask: ByteArray) -> FloatArray:
+    """Return the distance of each pixel of a mask to the nearest one outside it, px.
+
+    The border of the picture counts as more of the same.
+    """
+    padded = cv2.copyMakeBorder(mask, 1, 1, 1, 1, cv2.BORDER_REPLICATE)
+    distance = cv2.distanceTransform(padded, cv2.DIST_L2, 5)
+    return np.asarray(distance[1:-1, 1:-1], dtype=np.float64)
+
+
+def narrow_places(free: ByteArray, gap_px: float) -> tuple[ByteArray, FloatArray]:
+    """Return the free pixels that no disc wider than a gap can cover.
+
+    Parameters
+    ----------
+    free : ndarray of uint8, shape (H, W)
+        Free pixels.
+    gap_px : float
+        Diameter of the widest disc that does not count, px.
+
+    Returns
+    -------
+    narrow : ndarray of uint8, shape (H, W)
+        Free pixels in places at most `gap_px` wide.
+    depth_px : ndarray of float, shape (H, W)
+        Distance to the nearest pixel that is not free.
+    """
+    depth_px = depth(free)
+    # In the middle of a gap of n pixels the depth is (n + 1) / 2.
+    reach = (gap_px + 1) / 2 + 0.5
+    core = as_bytes(depth_px < reach)
+    return free & as_bytes(depth(core) >= reach), depth_px

@@ -1,0 +1,121 @@
+"""The frame in which walls are looked for: enlarged if small, turned upright."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occsim._types import BoolArray, ByteArray, FloatArray
+from occsim.walls.raster import as_bytes
+
+SMALL_DRAWING_PX = 400_000
+"""Pixels below which a drawing is enlarged: its walls are only a few pixels thick."""
+
+LEAST_TILT_DEG = 0.5
+"""Tilt that is left as it is, degrees: turning blurs more than the tilt costs."""
+
+BINS_PER_DEG = 10
+SMOOTHING_PX = 3.0  # wide enough to hide the steps of lines drawn without grey
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Working frame of a drawing and the way back.
+
+    Parameters
+    ----------
+    dark : ndarray of uint8, shape (h, w)
+        Darkness in the working frame.
+    scale : int
+        Working pixels along a pixel of the drawing.
+    turn : ndarray of float64, shape (2, 3), or None
+        Affine from the enlarged drawing to the working frame; None for no turn.
+    shape : tuple of int
+        Height and width of the drawing, px.
+    """
+
+    dark: ByteArray
+    scale: int
+    turn: FloatArray | None
+    shape: tuple[int, int]
+
+    def back(self, mask: ByteArray) -> BoolArray:
+        """Return a mask of the working frame over the drawing's own pixels."""
+        height, width = self.shape
+        levels = as_bytes(mask) * np.uint8(255)
+        if self.turn is not None:
+            size = width * self.scale, height * self.scale
+            flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+            levels = np.asarray(cv2.warpAffine(levels, self.turn, size, flags=flags))
+        if self.scale > 1:
+            levels = np.asarray(
+                cv2.resize(levels, (width, height), interpolation=cv2.INTER_AREA)
+            )
+        return levels > 127
+
+
+def working_frame(dark: ByteArray, straighten: bool = True) -> Frame:
+    """Return the frame in which most walls run along rows and columns.
+
+    Parameters
+    ----------
+    dark : ndarray of uint8, shape (H, W)
+        Darkness of the drawing.
+    straighten : bool, default True
+        Whether a tilt is looked for and taken out.
+    """
+    height, width = dark.shape
+    scale = 2 if dark.size < SMALL_DRAWING_PX else 1
+    if scale > 1:
+        size = width * scale, height * scale
+        dark = np.asarray(cv2.resize(dark, size, interpolation=cv2.INTER_CUBIC))
+    turn = None
+    tilt_deg = tilt(dark) if straighten else 0.0
+    if abs(tilt_deg) > LEAST_TILT_DEG:
+        dark, turn = _turned(dark, tilt_deg)
+    return Frame(dark=dark, scale=scale, turn=turn, shape=(height, width))
+
+
+def tilt(dark: ByteArray) -> float:
+    """Return the tilt of the lines in a drawing, degrees in [-45, 45).
+
+    The direction, modulo a right angle, in which most of the contrast lies.
+    """
+    smooth = cv2.GaussianBlur(dark, (0, 0), SMOOTHING_PX)
+    across = cv2.Scharr(smooth, cv2.CV_32F, 1, 0)
+    down = cv2.Scharr(smooth, cv2.CV_32F, 0, 1)
+    strength, angle = cv2.cartToPolar(across, down, angleInDegrees=True)
+    strong = strength > 0.2 * strength.max()
+    if not strong.any():
+        return 0.0
+    n_bins = 90 * BINS_PER_DEG
+    bins = (np.asarray(angle)[strong] * BINS_PER_DEG).astype(np.int64) % n_bins
+    votes = np.bincount(bins, weights=np.asarray(strength)[strong], minlength=n_bins)
+    return _circular_peak(np.asarray(votes, np.float64)) / BINS_PER_DEG
+
+
+def _circular_peak(votes: FloatArray) -> float:
+    """Return the position of the highest hill of a ring of bins, in [-n/2, n/2)."""
+    n_bins = len(votes)
+    reach = BINS_PER_DEG
+    ring = np.concatenate([votes[-reach:], votes, votes[:reach]])
+    hills = np.convolve(ring, np.hanning(13), "same")[reach:-reach]
+    offsets = np.arange(-reach, reach + 1)
+    top = int(np.argmax(hills))
+    near = votes[(top + offsets) % n_bins]
+    centre = top + float((offsets * near).sum() / near.sum()) + 0.5
+    return (centre + n_bins / 2) % n_bins - n_bins / 2
+
+
+def _turned(dark: ByteArray, tilt_deg: float) -> tuple[ByteArray, FloatArray]:
+    """Turn a picture by a tilt, on a canvas that holds all of it."""
+    height, width = dark.shape
+    turn = cv2.getRotationMatrix2D((width / 2, height / 2), tilt_deg, 1.0)
+    cos, sin = abs(turn[0, 0]), abs(turn[0, 1])
+    size = (
+        int(np.ceil(height * sin + width * cos)),
+        int(np.ceil(height * cos + width * sin)),
+    )
+    turn[:, 2] += (size[0] - width) / 2, (size[1] - height) / 2
+    turned = cv2.warpAffine(dark, turn, size, flags=cv2.INTER_LINEAR, borderValue=0)
+    return np.asarray(turned, dtype=np.uint8), np.asarray(turn, dtype=np.float64)
