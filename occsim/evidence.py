@@ -8,19 +8,26 @@ import numpy.typing as npt
 
 from occsim._types import FloatArray, IntArray, Progress
 from occsim.errors import ParameterError
-from occsim.geometry import wrap_angle
 from occsim.grid import Grid
 from occsim.rays.faces import SideFaces, wall_faces
-from occsim.sensor import (
-    EDGE_EPS,
-    OWN_PIXEL_EPS_PX,
-    SURFACE_DEPTH_PX,
-    BehindHit,
-    Sensor,
-    inverse_sensor_model,
+from occsim.rays.outline import trace_outline
+from occsim.rays.reach import View, seen_faces
+from occsim.rays.scan import (
+    Windows,
+    count_pixels,
+    empty_polygons,
+    view_polygons,
+    windows_around,
 )
+from occsim.rays.surface import count_surface, own_pixels
+from occsim.sensor import BehindHit, Sensor, inverse_sensor_model
 from occsim.trajectory import Trajectory
 from occsim.world import World
+
+COUNTERS_AT_ONCE = 1 << 19
+READINGS_AT_ONCE = 1 << 9
+"""Readings are taken in batches of so many cells and readings: work that stays in the
+processor's cache is faster, and memory does not grow with the trajectory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,75 +145,62 @@ def collect_evidence(
             f"({grid.height_px}, {grid.width_px}) px"
         )
     faces = wall_faces(world.occupied)
-    entries = []
-    for done, pose in enumerate(trajectory.poses):
-        entries.append(_reading(world, faces, pose, sensor, grid))
+    parts = []
+    for batch in _batches(len(trajectory), sensor, grid):
+        view = View.of(trajectory.poses[batch], sensor)
+        parts.append(_read(world, faces, view, sensor, grid))
         if on_progress is not None:
-            on_progress(done + 1, len(trajectory))
-    sizes = [cells.size for cells, _ in entries]
+            on_progress(batch.stop, len(trajectory))
+    sizes, cells, log_odds = (np.concatenate(part) for part in zip(*parts, strict=True))
     return EvidenceLog(
         grid=grid,
-        indptr=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
-        cell=np.concatenate([cells for cells, _ in entries]).astype(np.int32),
-        log_odds=np.concatenate([values for _, values in entries]),
+        indptr=np.concatenate([[0], np.cumsum(sizes)]),
+        cell=cells,
+        log_odds=log_odds,
     )
 
 
-def _reading(
+def _batches(n_readings: int, sensor: Sensor, grid: Grid) -> list[slice]:
+    """Return slices of readings whose counters together stay within bounds."""
+    across = int(min(2.0 * sensor.range_px / grid.cell_px, max(grid.shape))) + 4
+    window = min(across, grid.n_rows) * min(across, grid.n_cols)
+    size = int(np.clip(COUNTERS_AT_ONCE // window, 1, READINGS_AT_ONCE))
+    starts = range(0, n_readings, size)
+    return [slice(start, min(start + size, n_readings)) for start in starts]
+
+
+def _read(
     world: World,
     faces: tuple[SideFaces, ...],
-    pose: FloatArray,
+    view: View,
     sensor: Sensor,
     grid: Grid,
-) -> tuple[IntArray, FloatArray]:
-    """Return the cells of one reading and their log-odds, pixel by pixel and face."""
-    x, y, theta = pose
-    reach = sensor.range_px + EDGE_EPS
-    height, width = world.shape
-    rows = np.arange(max(0, int(y - reach) - 1), min(height, int(y + reach) + 2))
-    cols = np.arange(max(0, int(x - reach) - 1), min(width, int(x + reach) + 2))
-    rows, cols = (a.ravel() for a in np.meshgrid(rows, cols, indexing="ij"))
-    dx, dy = cols + 0.5 - x, rows + 0.5 - y
-    distance, bearing = np.hypot(dx, dy), np.arctan2(dy, dx)
-    own = distance <= OWN_PIXEL_EPS_PX
-    off = np.abs(wrap_angle(bearing - theta))
-    kept = own | ((distance <= reach) & (off <= sensor.fov_rad / 2 + EDGE_EPS))
-    rows, cols, own, dx, dy = (a[kept] for a in (rows, cols, own, dx, dy))
-    distance, bearing = distance[kept], bearing[kept]
-
-    z = np.full(rows.size, np.inf)
-    for side, found in enumerate(faces):
-        c, s = round(np.cos(side * np.pi / 2)), round(np.sin(side * np.pi / 2))
-        origin, across = (x, y) if side % 2 == 0 else (y, x)
-        d = (found.position - origin) * (c + s)
-        flip = 1 if side in (0, 3) else -1
-        ends = np.sort([(found.start - across) * flip, (found.stop - across) * flip], 0)
-        near = (d > EDGE_EPS) & (d <= reach)
-        d, ends = d[near], ends[:, near]
-        relative = wrap_angle(bearing - side * np.pi / 2)[:, None]
-        low, high = np.arctan2(ends, d)
-        hit = (relative >= low - EDGE_EPS) & (relative <= high + EDGE_EPS)
-        forward = (dx * c + dy * s)[:, None] / distance[:, None].clip(1e-9)
-        at = np.where(hit, d / np.where(forward > 0, forward, 1.0), np.inf)
-        z = np.minimum(z, at.min(axis=1, initial=np.inf))
-    first_col = np.where(dx > 0, np.floor(x), np.ceil(x) - 1).astype(np.int64)
-    first_row = np.where(dy > 0, np.floor(y), np.ceil(y) - 1).astype(np.int64)
-    inside = (first_col >= 0) & (first_row >= 0)
-    inside &= (first_col < width) & (first_row < height)
-    started = world.occupied[
-        first_row.clip(0, height - 1), first_col.clip(0, width - 1)
-    ]
-    z[inside & started] = 0.0
-    z[own] = np.where(world.occupied[rows[own], cols[own]], 0.0, np.inf)
-
-    hit = z <= reach
-    empty = np.where(hit, distance < z, sensor.clear_no_hit) | (own & ~hit)
-    objects = hit & ~empty
+) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
+    """Return one batch of readings: entries of each, their cells and log-odds."""
+    windows = windows_around(view, grid)
+    seen = seen_faces(faces, world.occupied, view)
+    outline = trace_outline(seen, view)
+    clear = sensor.clear_no_hit
+    n_empty = count_pixels(
+        empty_polygons(outline, seen, view, clear_no_hit=clear), windows, view
+    )
     if sensor.behind_hit is BehindHit.UNSEEN:
-        objects &= world.occupied[rows, cols]
-        objects &= distance - z <= SURFACE_DEPTH_PX + EDGE_EPS
-    cell = rows // grid.cell_px * grid.n_cols + cols // grid.cell_px
-    n_empty = np.bincount(cell[empty], minlength=grid.n_cells)
-    n_object = np.bincount(cell[objects], minlength=grid.n_cells)
-    seen = np.flatnonzero(n_empty + n_object)
-    return seen, inverse_sensor_model(n_empty[seen], n_object[seen])
+        n_object = count_surface(outline, seen, world.occupied, windows, view)
+    else:
+        in_view = view_polygons(outline, view, clear_no_hit=clear)
+        n_object = count_pixels(in_view, windows, view) - n_empty
+    counter, is_wall = own_pixels(world.occupied, windows, view)
+    n_empty[counter] += ~is_wall
+    n_object[counter] += is_wall
+    return _entries(n_empty, n_object, windows)
+
+
+def _entries(
+    n_empty: FloatArray, n_object: FloatArray, windows: Windows
+) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
+    """Return the cells in view and what Eq. 4.22 says of them."""
+    counter = np.flatnonzero(n_empty + n_object)
+    n_empty, n_object = n_empty[counter], n_object[counter]
+    reading, cell = windows.cells(counter)
+    sizes = np.bincount(reading, minlength=windows.first_row.size)
+    return sizes, cell.astype(np.int32), inverse_sensor_model(n_empty, n_object)

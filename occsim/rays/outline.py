@@ -1,0 +1,204 @@
+"""The outline of what each reading sees: its nearest faces, bearing by bearing."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occsim._types import FloatArray, IntArray
+from occsim.geometry import wrap_angle
+from occsim.rays.ragged import ragged_ranges
+from occsim.rays.reach import SIDE_COS, SIDE_SIN, SeenFaces, View
+
+SLIVER_RAD = 1e-12
+"""Bearings closer than this are one: a thousandth of the tolerance of an edge."""
+
+PAIRS_AT_ONCE = 1 << 20
+"""Bounds the memory of comparing faces (about 50 bytes for each face and interval)."""
+
+NO_FACE = -1
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Pieces of bearing in each of which one face, or none within reach, is nearest.
+
+    Parameters
+    ----------
+    reading : ndarray of int64, shape (P,)
+        Reading of the batch, ascending; within one, bearings ascend without a gap.
+    face : ndarray of int64, shape (P,)
+        Index into the seen faces, or NO_FACE.
+    start, end : ndarray of float64, shape (2, P)
+        Unit vectors (x, y) of the bearings at which the piece starts and ends. No
+        piece crosses straight up or straight down.
+    """
+
+    reading: IntArray
+    face: IntArray
+    start: FloatArray
+    end: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Intervals:
+    """What lies between neighbouring bearings at which any face begins or ends.
+
+    Shapes (J,): reading, bearings begin and end relative to the heading, unit vector
+    of the middle. `first` and `stop`, shape (K,), are the intervals of each face.
+    """
+
+    reading: IntArray
+    begin: FloatArray
+    end: FloatArray
+    middle_x: FloatArray
+    middle_y: FloatArray
+    first: IntArray
+    stop: IntArray
+
+
+def trace_outline(faces: SeenFaces, view: View) -> Outline:
+    """Return the outline that the nearest faces of each reading form.
+
+    Parameters
+    ----------
+    faces : SeenFaces
+        Faces in view. They come from a world of pixels, so none crosses another, and
+        the one that is nearest half-way between two neighbouring ends is so all the
+        way.
+    view : View
+        N readings.
+
+    Returns
+    -------
+    Outline
+    """
+    intervals = _intervals(faces, view)
+    return _merged(intervals, _nearest(faces, intervals), view)
+
+
+def _intervals(faces: SeenFaces, view: View) -> _Intervals:
+    """Return the intervals between all ends of faces, sorted within each reading."""
+    n, k = view.size, faces.reading.size
+    edge = np.full(n, view.half)
+    # Straight up and down: there an arc turns from falling to rising lines.
+    turns = [
+        np.clip(wrap_angle(turn - view.theta), -view.half, view.half)
+        for turn in (-0.5 * np.pi, 0.5 * np.pi)
+    ]
+    bearing = np.concatenate([-edge, edge, *turns, faces.begin, faces.end])
+    owner = np.concatenate([np.tile(np.arange(n), 4), faces.reading, faces.reading])
+    # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
+    order = np.argsort(8.0 * owner + bearing)
+    bearing, owner = bearing[order], owner[order]
+    real = owner[1:] == owner[:-1]
+    real &= bearing[1:] - bearing[:-1] > SLIVER_RAD
+    # rank[p]: intervals before the end that was at place p before sorting.
+    rank = np.empty(order.size, dtype=np.int64)
+    rank[order] = np.concatenate([[0], np.cumsum(real)])
+    left = np.flatnonzero(real)
+    begin, end, reading = bearing[left], bearing[left + 1], owner[left]
+    middle = 0.5 * (begin + end) + view.theta[reading]
+    first, stop = rank[4 * n : 4 * n + k], rank[4 * n + k :]
+    return _Intervals(reading, begin, end, np.cos(middle), np.sin(middle), first, stop)
+
+
+def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
+    """Return the nearest face of each interval, or NO_FACE, shape (J,)."""
+    n_intervals = intervals.reading.size
+    distance = np.full(n_intervals, np.inf)
+    nearest = np.full(n_intervals, NO_FACE, dtype=np.int64)
+    # How far ahead a middle points, by the side that is looked at: one gather a pair.
+    x, y = intervals.middle_x, intervals.middle_y
+    ahead = np.concatenate([x, y, -x, -y])
+    offset, least = faces.side * n_intervals, faces.ahead_min()
+    covered = np.cumsum(intervals.stop - intervals.first)
+    n_chunks = 1 + (int(covered[-1]) if covered.size else 0) // PAIRS_AT_ONCE
+    chunk_ends = np.searchsorted(
+        covered, np.arange(1, n_chunks + 1) * PAIRS_AT_ONCE, side="right"
+    )
+    start = 0
+    for stop in np.unique(np.append(chunk_ends, faces.reading.size)):
+        pair, interval = ragged_ranges(
+            intervals.first[start:stop], intervals.stop[start:stop]
+        )
+        pair += start
+        cosine = np.maximum(ahead[offset[pair] + interval], least[pair])
+        z = faces.depth[pair] / cosine
+        np.minimum.at(distance, interval, z)
+        wins = z == distance[interval]
+        nearest[interval[wins]] = pair[wins]
+        start = stop
+    return nearest
+
+
+def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
+    """Return the outline with intervals of one face joined to one piece."""
+    reading, right = intervals.reading, intervals.middle_x > 0
+    differs = (reading[1:] != reading[:-1]) | (nearest[1:] != nearest[:-1])
+    differs |= right[1:] != right[:-1]
+    first = np.concatenate([[0], np.flatnonzero(differs) + 1])
+    last = np.append(first[1:] - 1, reading.size - 1)
+    owner = reading[first]
+    theta = view.theta[owner]
+    return Outline(
+        reading=owner,
+        face=nearest[first],
+        start=_unit_vectors(intervals.begin[first], theta),
+        end=_unit_vectors(intervals.end[last], theta),
+    )
+
+
+def _unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
+    """Return unit vectors (2, P) of bearings relative to a heading."""
+    # A full turn ends where it began, to the last bit: its seam must cancel.
+    absolute = np.where(bearing >= np.pi, -np.pi, bearing) + theta
+    return np.stack([np.cos(absolute), np.sin(absolute)])
+
+
+def points_on_faces(
+    faces: SeenFaces, face: IntArray, direction: FloatArray
+) -> FloatArray:
+    """Return where rays meet faces.
+
+    Parameters
+    ----------
+    faces : SeenFaces
+        Faces in view.
+    face : ndarray of int64, shape (Q,)
+        One face for each ray.
+    direction : ndarray of float64, shape (2, Q)
+        Unit vectors of the rays. One may pass its face's end by the tolerance; the
+        point then lies on the face's prolongation.
+
+    Returns
+    -------
+    ndarray of float64, shape (2, Q)
+        Points (x, y) from the robot, px.
+    """
+    cut = faces.take(face)
+    cos, sin = SIDE_COS[cut.side], SIDE_SIN[cut.side]
+    sideways = cut.depth * lateral_slope(cut, direction)
+    return np.stack(
+        [cut.depth * cos - sideways * sin, cut.depth * sin + sideways * cos]
+    )
+
+
+def lateral_slope(faces: SeenFaces, direction: FloatArray) -> FloatArray:
+    """Return how far sideways each ray moves per step ahead, in its face's frame.
+
+    Parameters
+    ----------
+    faces : SeenFaces
+        One face for each of Q rays.
+    direction : ndarray of float64, shape (2, Q)
+        Unit vectors of the rays.
+
+    Returns
+    -------
+    ndarray of float64, shape (Q,)
+        The tangent of the angle between ray and looking direction.
+    """
+    x, y = direction
+    cos, sin = SIDE_COS[faces.side], SIDE_SIN[faces.side]
+    ahead = np.maximum(x * cos + y * sin, faces.ahead_min())
+    return np.asarray((y * cos - x * sin) / ahead, dtype=np.float64)

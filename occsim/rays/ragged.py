@@ -1,0 +1,28 @@
+"""Lists of unequal length, laid end to end."""
+
+import numpy as np
+
+from occsim._types import IntArray
+
+
+def ragged_ranges(first: IntArray, stop: IntArray) -> tuple[IntArray, IntArray]:
+    """Return the whole numbers of many half-open ranges.
+
+    Parameters
+    ----------
+    first, stop : ndarray of int64, shape (N,)
+        Range n holds ``first[n]`` to ``stop[n] - 1``; none where stop <= first.
+
+    Returns
+    -------
+    owner : ndarray of int64, shape (T,)
+        Range n of each number, ascending.
+    value : ndarray of int64, shape (T,)
+        The number.
+    """
+    sizes = np.maximum(stop - first, 0)
+    ends = np.cumsum(sizes)
+    owner = np.repeat(np.arange(first.size), sizes)
+    total = int(ends[-1]) if ends.size else 0
+    value = np.arange(total) + np.repeat(first - ends + sizes, sizes)
+    return owner, value

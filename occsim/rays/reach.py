@@ -1,0 +1,213 @@
+"""The faces that each reading of a batch can see: within reach, within the cone."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from occsim._types import BoolArray, FloatArray, IntArray
+from occsim.geometry import wrap_angle
+from occsim.rays.faces import N_SIDES, SideFaces
+from occsim.rays.ragged import ragged_ranges
+from occsim.sensor import EDGE_EPS, Sensor
+
+SIDE_COS = np.array([1.0, 0.0, -1.0, 0.0])
+SIDE_SIN = np.array([0.0, 1.0, 0.0, -1.0])
+"""Unit vector of each side's looking direction (right, down, left, up), exactly."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """Where a batch of readings is taken, and how far and wide each one looks.
+
+    Parameters
+    ----------
+    x, y : ndarray of float64, shape (N,)
+        The robot, px.
+    theta : ndarray of float64, shape (N,)
+        Its heading, rad.
+    reach : float
+        Range with its tolerance, px.
+    half : float
+        Half the field of view with its tolerance, rad, at most pi.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    theta: FloatArray
+    reach: float
+    half: float
+
+    @classmethod
+    def of(cls, poses: FloatArray, sensor: Sensor) -> Self:
+        """Return the view of a sensor at poses of shape (N, 3)."""
+        x, y, theta = np.ascontiguousarray(poses.T)
+        half = min(0.5 * sensor.fov_rad + EDGE_EPS, np.pi)
+        return cls(x, y, theta, sensor.range_px + EDGE_EPS, half)
+
+    @property
+    def size(self) -> int:
+        """Number N of readings."""
+        return self.x.size
+
+
+@dataclass(frozen=True, eq=False)
+class SeenFaces:
+    """Faces from where the robot stands, cut to its reach and field of view.
+
+    In the frame of its side a face is the line ``depth`` ahead, from ``low`` to
+    ``high`` to the right (clockwise) of straight ahead. A face of depth 0 stands for
+    wall that begins at the robot itself.
+
+    Parameters
+    ----------
+    reading, side : ndarray of int64, shape (K,)
+        Reading of the batch, and the way that one looks to see the face.
+    depth, low, high : ndarray of float64, shape (K,)
+        px.
+    begin, end : ndarray of float64, shape (K,)
+        Bearings of its ends relative to the heading, rad, begin < end.
+    """
+
+    reading: IntArray
+    side: IntArray
+    depth: FloatArray
+    low: FloatArray
+    high: FloatArray
+    begin: FloatArray
+    end: FloatArray
+
+    def take(self, which: BoolArray | IntArray) -> "SeenFaces":
+        """Return some of the faces."""
+        return SeenFaces(*(getattr(self, name)[which] for name in _FIELDS))
+
+    def ahead_min(self) -> FloatArray:
+        """Return the least cosine between looking direction and a point of each face.
+
+        Returns
+        -------
+        ndarray of float64, shape (K,)
+            In (0, 1]; bounds the division that places a bearing on the face.
+        """
+        farthest = np.maximum(-self.low, self.high)
+        here = self.depth == 0.0
+        least = self.depth / np.hypot(self.depth + here, farthest)
+        # Grazing rays pass the end by the tolerance. Half of the least keeps the
+        # division sound where the robot is all but in line with the face.
+        least = np.maximum(least - 2.0 * EDGE_EPS, 0.5 * least)
+        return np.asarray(np.where(here, 1.0, least), dtype=np.float64)
+
+
+_FIELDS = tuple(SeenFaces.__dataclass_fields__)
+
+
+def _joined(parts: list[SeenFaces]) -> SeenFaces:
+    return SeenFaces(
+        *(np.concatenate([getattr(part, name) for part in parts]) for name in _FIELDS)
+    )
+
+
+def seen_faces(
+    faces: tuple[SideFaces, ...], occupied: BoolArray, view: View
+) -> SeenFaces:
+    """Return every face that may stop a ray of a batch of readings.
+
+    Parameters
+    ----------
+    faces : tuple of SideFaces
+        The world's, by `wall_faces`.
+    occupied : ndarray of bool, shape (H, W)
+        Its wall pixels.
+    view : View
+        N readings.
+
+    Returns
+    -------
+    SeenFaces
+        Faces that hide one another are all there.
+    """
+    parts = [_side_in_reach(side, faces[side], view) for side in range(N_SIDES)]
+    parts.append(_wall_at_robot(occupied, view))
+    return _in_field_of_view(_joined(parts), view.half)
+
+
+def _side_in_reach(side: int, faces: SideFaces, view: View) -> SeenFaces:
+    """Return one side's faces that come within reach of each reading."""
+    along, across = (view.x, view.y) if side % 2 == 0 else (view.y, view.x)
+    ahead = side < 2
+    # A face in line with the robot cannot stop a ray: depths run from EDGE_EPS.
+    nearest, farthest = (EDGE_EPS, view.reach) if ahead else (-view.reach, -EDGE_EPS)
+    first = np.searchsorted(faces.position, along + nearest, side="left")
+    stop = np.searchsorted(faces.position, along + farthest, side="right")
+    reading, face = ragged_ranges(first, stop)
+    depth = np.abs(faces.position[face] - along[reading])
+    low = faces.start[face] - across[reading]
+    high = faces.stop[face] - across[reading]
+    if side in (1, 2):  # there, clockwise runs against the axis
+        low, high = -high, -low
+    chord = np.sqrt(np.maximum(view.reach**2 - depth**2, 0.0))
+    low, high = np.maximum(low, -chord), np.minimum(high, chord)
+    kept = np.flatnonzero(low < high)
+    reading, depth, low, high = reading[kept], depth[kept], low[kept], high[kept]
+    left, right = np.arctan2(low, depth), np.arctan2(high, depth)
+    begin, end = _relative_bearings(side, left, right, view.theta[reading])
+    sides = np.full(reading.size, side)
+    return SeenFaces(reading, sides, depth, low, high, begin, end)
+
+
+def _relative_bearings(
+    side: int | IntArray, left: FloatArray, right: FloatArray, theta: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return bearings relative to the heading, widened so that grazing rays stop."""
+    begin = wrap_angle(left + (side * (0.5 * np.pi) - EDGE_EPS) - theta)
+    return begin, begin + (right - left + 2.0 * EDGE_EPS)
+
+
+def first_pixel_is_wall(occupied: BoolArray, view: View) -> BoolArray:
+    """Return whether a ray leads straight into wall, by the quadrant it leads into.
+
+    On a pixel's edge or corner the answer differs between quadrants; elsewhere it is
+    whether the robot stands in a wall pixel.
+
+    Parameters
+    ----------
+    occupied : ndarray of bool, shape (H, W)
+        Wall pixels.
+    view : View
+        N readings.
+
+    Returns
+    -------
+    ndarray of bool, shape (N, 4)
+        Quadrant q holds the bearings from ``q pi / 2`` to ``(q + 1) pi / 2``.
+    """
+    height, width = occupied.shape
+    right, left = np.floor(view.x), np.ceil(view.x) - 1.0
+    down, up = np.floor(view.y), np.ceil(view.y) - 1.0
+    col = np.stack([right, left, left, right], axis=1)
+    row = np.stack([down, down, up, up], axis=1)
+    inside = (col >= 0) & (row >= 0) & (col < width) & (row < height)
+    col, row = np.where(inside, col, 0), np.where(inside, row, 0)
+    return np.asarray(inside & occupied[row.astype(np.intp), col.astype(np.intp)])
+
+
+def _wall_at_robot(occupied: BoolArray, view: View) -> SeenFaces:
+    """Return faces of depth 0 for the quadrants in which wall begins at once."""
+    reading, quadrant = np.nonzero(first_pixel_is_wall(occupied, view))
+    zero = np.zeros(reading.size)
+    begin, end = _relative_bearings(
+        quadrant, zero, zero + 0.5 * np.pi, view.theta[reading]
+    )
+    return SeenFaces(reading, quadrant, zero, zero, zero, begin, end)
+
+
+def _in_field_of_view(faces: SeenFaces, half: float) -> SeenFaces:
+    """Return the faces cut to bearings within half of the heading."""
+    # Behind the robot bearings jump from pi to -pi: such a face is seen at both ends.
+    across = np.flatnonzero(faces.end > np.pi)
+    index = np.concatenate([np.arange(faces.reading.size), across])
+    begin = np.concatenate([faces.begin, faces.begin[across] - 2.0 * np.pi])
+    end = np.concatenate([faces.end, faces.end[across] - 2.0 * np.pi])
+    begin, end = np.maximum(begin, -half), np.minimum(end, half)
+    kept = begin < end
+    return replace(faces.take(index[kept]), begin=begin[kept], end=end[kept])

@@ -1,0 +1,291 @@
+"""Counting the pixels inside outlines, cell by cell, without touching each pixel.
+
+Along one line of pixel centres, an outline is entered and left at a few crossings. Each
+crossing says that all pixels to its right change sides; cells are counted from those
+changes alone, by summing along each row of cells.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from occsim._types import BoolArray, FloatArray, IntArray
+from occsim.grid import Grid
+from occsim.rays.outline import NO_FACE, Outline, points_on_faces
+from occsim.rays.ragged import ragged_ranges
+from occsim.rays.reach import SeenFaces, View
+
+OWN_RADIUS_PX = 1e-6
+"""Outlines keep this far from the robot: a pixel centre there has no bearing and is
+counted by itself. Less than the distance of any other centre, far above rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """The cells that each reading of a batch may reach: windows of one size.
+
+    Parameters
+    ----------
+    grid : Grid
+        All cells.
+    first_row, first_col : ndarray of int64, shape (N,)
+        The cell at the top left of each reading's window.
+    n_rows, n_cols : int
+        Size of every window in cells. One more column is kept on the right, for
+        crossings at the right edge of the image.
+    """
+
+    grid: Grid
+    first_row: IntArray
+    first_col: IntArray
+    n_rows: int
+    n_cols: int
+
+    @property
+    def size(self) -> int:
+        """Number of counters of all windows."""
+        return self.first_row.size * self.n_rows * self.n_cols
+
+    def base(self) -> IntArray:
+        """Return where each window begins, less its first cell, (N,)."""
+        starts = np.arange(self.first_row.size) * (self.n_rows * self.n_cols)
+        return starts - self.first_row * self.n_cols - self.first_col
+
+    def pixel_counters(
+        self, reading: IntArray, row: IntArray, col: IntArray
+    ) -> IntArray:
+        """Return the counter of the cell of each pixel, (Q,)."""
+        cell_px = self.grid.cell_px
+        return self.base()[reading] + row // cell_px * self.n_cols + col // cell_px
+
+    def cells(self, counter: IntArray) -> tuple[IntArray, IntArray]:
+        """Return the reading and the flat cell of the grid of counters, (Q,) each."""
+        reading, inside = np.divmod(counter, self.n_rows * self.n_cols)
+        row, col = np.divmod(inside, self.n_cols)
+        first = self.first_row * self.grid.n_cols + self.first_col
+        return reading, first[reading] + row * self.grid.n_cols + col
+
+
+def windows_around(view: View, grid: Grid) -> Windows:
+    """Return windows of cells that hold the field of view of each reading.
+
+    Parameters
+    ----------
+    view : View
+        N readings.
+    grid : Grid
+        All cells.
+
+    Returns
+    -------
+    Windows
+    """
+    first_col, n_cols = _window(view.x, 0.0, view, grid.n_cols, grid.cell_px)
+    first_row, n_rows = _window(view.y, 0.5 * np.pi, view, grid.n_rows, grid.cell_px)
+    return Windows(grid, first_row, first_col, n_rows, n_cols + 1)
+
+
+def _window(
+    centre: FloatArray, axis: float, view: View, n_cells: int, cell_px: int
+) -> tuple[IntArray, int]:
+    """Return the first cell of each reading's window along one axis, and its length."""
+    off = np.abs(np.mod(view.theta - axis + np.pi, 2.0 * np.pi) - np.pi)
+    farthest = np.cos(np.maximum(off - view.half, 0.0))
+    nearest = np.cos(np.minimum(off + view.half, np.pi))
+    low = centre + view.reach * np.minimum(nearest, 0.0) - 1.0
+    high = centre + view.reach * np.maximum(farthest, 0.0) + 1.0
+    # Far outside the image, cells would overflow whole numbers.
+    first, last = (
+        np.clip(np.floor(end / cell_px), 0, n_cells - 1).astype(np.int64)
+        for end in (low, high)
+    )
+    length = int((last - first).max()) + 1
+    return np.minimum(first, n_cells - length), length
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Edges of closed outlines, walked with bearings ascending.
+
+    Parameters
+    ----------
+    reading : ndarray of int64, shape (E,)
+        Reading of the batch.
+    start, end : ndarray of float64, shape (2, E)
+        Points (x, y) from the robot, px.
+    """
+
+    reading: IntArray
+    start: FloatArray
+    end: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """Closed outlines, one of each reading.
+
+    Parameters
+    ----------
+    straight : Edges
+        Edges that are straight.
+    arcs : Edges
+        Edges that run along the reach, none across straight up or straight down.
+    """
+
+    straight: Edges
+    arcs: Edges
+
+
+def empty_polygons(
+    outline: Outline, faces: SeenFaces, view: View, *, clear_no_hit: bool
+) -> Polygons:
+    """Return what lies before the first wall, within reach.
+
+    Parameters
+    ----------
+    outline : Outline
+        Pieces of bearing and their nearest faces.
+    faces : SeenFaces
+        Those faces.
+    view : View
+        N readings.
+    clear_no_hit : bool
+        Whether bearings without a hit are empty as far as the reach.
+
+    Returns
+    -------
+    Polygons
+    """
+    is_open = outline.face == NO_FACE
+    is_arc = is_open & clear_no_hit
+    radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
+    start, end = outline.start * radius, outline.end * radius
+    at_face = np.flatnonzero(~is_open)
+    face = outline.face[at_face]
+    at_face = at_face[faces.depth[face] > 0.0]
+    face = outline.face[at_face]
+    start[:, at_face] = points_on_faces(faces, face, outline.start[:, at_face])
+    end[:, at_face] = points_on_faces(faces, face, outline.end[:, at_face])
+    return _closed(outline.reading, start, end, is_arc, view)
+
+
+def view_polygons(outline: Outline, view: View, *, clear_no_hit: bool) -> Polygons:
+    """Return what lies within reach, at bearings of which the reading says something.
+
+    Parameters
+    ----------
+    outline : Outline
+        Pieces of bearing and their nearest faces.
+    view : View
+        N readings.
+    clear_no_hit : bool
+        Whether that includes bearings without a hit.
+
+    Returns
+    -------
+    Polygons
+    """
+    is_arc = (outline.face != NO_FACE) | clear_no_hit
+    radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
+    start, end = outline.start * radius, outline.end * radius
+    return _closed(outline.reading, start, end, is_arc, view)
+
+
+def _closed(
+    reading: IntArray,
+    start: FloatArray,
+    end: FloatArray,
+    is_arc: BoolArray,
+    view: View,
+) -> Polygons:
+    """Return pieces of boundary joined by straight edges, and round the robot."""
+    follows = np.flatnonzero(reading[1:] == reading[:-1])
+    first = np.concatenate([[0], np.flatnonzero(np.diff(reading)) + 1])
+    last = np.append(first[1:] - 1, reading.size - 1)
+    # Back past the robot at a tiny distance, clockwise to anticlockwise side.
+    turns = view.half * np.array([1.0, 0.5, 0.0, -0.5, -1.0])
+    absolute = np.where(turns >= np.pi, -np.pi, turns)[:, None] + view.theta
+    turned = OWN_RADIUS_PX * np.stack([np.cos(absolute), np.sin(absolute)])
+    past = [end[:, last], *turned.transpose(1, 0, 2), start[:, first]]
+    flat = ~is_arc
+    straight = Edges(
+        np.concatenate(
+            [reading[flat], reading[follows], np.tile(reading[first], len(past) - 1)]
+        ),
+        np.concatenate([start[:, flat], end[:, follows], *past[:-1]], axis=1),
+        np.concatenate([end[:, flat], start[:, follows + 1], *past[1:]], axis=1),
+    )
+    arcs = Edges(reading[is_arc], start[:, is_arc], end[:, is_arc])
+    return Polygons(straight, arcs)
+
+
+def count_pixels(polygons: Polygons, windows: Windows, view: View) -> FloatArray:
+    """Return how many pixel centres of each cell lie inside the outlines.
+
+    Parameters
+    ----------
+    polygons : Polygons
+        Closed outlines of N readings.
+    windows : Windows
+        Cells to count in.
+    view : View
+        The readings.
+
+    Returns
+    -------
+    ndarray of float64, shape (windows.size,)
+        Whole numbers; the last column of each window is meaningless.
+    """
+    base = windows.base()
+    parts = [
+        _crossings(edges, is_arc, windows.grid, view)
+        for edges, is_arc in ((polygons.straight, False), (polygons.arcs, True))
+    ]
+    reading, row, x, sign = (np.concatenate(part) for part in zip(*parts, strict=True))
+    grid = windows.grid
+    # The first pixel whose centre lies at the crossing or right of it.
+    col = np.clip(np.ceil(x), 0, grid.width_px).astype(np.int64)
+    cell_row = np.arange(grid.height_px) // grid.cell_px * windows.n_cols
+    cell_col, within = np.divmod(np.arange(grid.width_px + 1), grid.cell_px)
+    counter = base[reading] + cell_row[row] + cell_col[col]
+    changes = np.bincount(counter, weights=sign, minlength=windows.size)
+    part = np.bincount(counter, weights=sign * within[col], minlength=windows.size)
+    by_row = changes.reshape(-1, windows.n_cols)
+    np.cumsum(by_row, axis=1, out=by_row)
+    # Each change counts for its whole cell, less the pixels left of it.
+    return np.asarray(changes * grid.cell_px - part, dtype=np.float64)
+
+
+def _crossings(
+    edges: Edges, is_arc: bool, grid: Grid, view: View
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    """Return where edges cross lines of pixel centres.
+
+    Returns
+    -------
+    reading, row : ndarray of int64, shape (T,)
+        Reading of the batch and row of pixels.
+    x : ndarray of float64, shape (T,)
+        Column, such that a whole number is that pixel's centre.
+    sign : ndarray of float64, shape (T,)
+        +1 where the inside lies to the right, -1 where to the left.
+    """
+    shift = view.y[edges.reading] - 0.5
+    rows = [
+        np.clip(np.ceil(end[1] + shift), 0, grid.height_px).astype(np.int64)
+        for end in (edges.start, edges.end)
+    ]
+    edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
+    # Bearings ascend clockwise: falling edges (y grows) have the inside on their left,
+    # and of the arcs those are the ones on the right.
+    sign = np.where(rows[1] > rows[0], -1.0, 1.0)[edge]
+    if is_arc:
+        y = row - shift[edge]
+        x = -sign * np.sqrt(np.maximum(view.reach**2 - y * y, 0.0))
+    else:
+        width, height = edges.end - edges.start
+        slope = width / np.where(height == 0.0, 1.0, height)
+        below = row - (shift + edges.start[1])[edge]
+        x = edges.start[0][edge] + below * slope[edge]
+    reading = edges.reading[edge]
+    return reading, row, x + (view.x[reading] - 0.5), sign
