@@ -177,6 +177,13 @@ def test_sizes_that_do_not_fit_are_refused(changes, message):
         pack(log, **changes)
 
 
+def test_a_run_too_long_for_a_browser_is_refused(monkeypatch):
+    monkeypatch.setattr("occsim.formats.replay.MAX_ENTRIES", 2)
+    log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0, 1: 1.0, 2: 1.0}])
+    with pytest.raises(ParameterError, match="at most 2 cell updates; this run has 3"):
+        pack(log)
+
+
 def test_bytes_that_are_no_replay_are_refused():
     log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}])
     content = zlib.decompress(pack(log))

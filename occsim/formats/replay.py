@@ -50,6 +50,8 @@ from occsim.grid import Grid
 from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 
+MAX_ENTRIES = 12_000_000
+"""More cell updates than this would make a browser tab short of memory."""
 MAGIC = b"OGR1"
 HEADER = struct.Struct("<4s11I2d")
 PREVIEW_MAX_PX = 1200
@@ -122,7 +124,8 @@ def pack_replay(
     Raises
     ------
     ParameterError
-        Where readings and poses differ in number, or sizes differ.
+        Where readings and poses differ in number, sizes differ, or the run is longer
+        than `MAX_ENTRIES`.
     """
     _check_sizes(evidence, is_wall, truth, trajectory, drawing)
     grid = evidence.grid
@@ -235,6 +238,12 @@ def _check_sizes(
             raise ParameterError(
                 f"{name} must have the grid's shape {grid.shape}; got {cells.shape}"
             )
+    if evidence.cell.size > MAX_ENTRIES:
+        raise ParameterError(
+            f"a replay holds at most {MAX_ENTRIES:,} cell updates; this run has "
+            f"{evidence.cell.size:,}: choose larger cells, a shorter range, a narrower "
+            "field of view or fewer readings"
+        )
     if len(trajectory) != evidence.n_readings:
         raise ParameterError(
             f"trajectory must have one pose for each of the {evidence.n_readings} "

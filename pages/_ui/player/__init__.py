@@ -82,7 +82,7 @@ ABOUT = {
 SCORES = (
     ("precision", "Precision", "declared walls that are walls"),
     ("recall", "Recall", "walls that were declared"),
-    ("f2", "F2", "both, recall counts more"),
+    ("f2", "F2", "recall weighs twice as much"),
     ("coverage", "Coverage", "cells seen at least once"),
 )
 ERRORS = (
@@ -137,19 +137,19 @@ def map_player(
     *,
     key: str,
     on_commit: Callable[[], None] | None = None,
-) -> PlayerDocument | None:
-    """Show the player; return what the student chose since this document, if anything.
+) -> PlayerDocument:
+    """Show the player; return what the student has chosen in it.
 
     How the caller keeps state. Hold two documents: the one *imposed* (the argument
-    here) and the one that is *current* (what this call returned last, else the imposed
-    one). Pass the imposed one unchanged from run to run: replay and document travel
-    together, and any change sends both. Impose another, ``replace(current, rev=rev + 1,
-    ...)``, only where the change comes from outside the player (reset, share link), and
-    where `key` is not in session state, for then the page was left and the browser has
-    forgotten the player. A commit that echoes an older rev is answered with None, so
-    that a late one never undoes what was imposed. A new replay under the same rev (a
-    changed cell size) stops a running playback and leaves the student's choices as
-    they are, the step clamped to the readings there are.
+    here) and the one that is *current* (what this call returned last). Pass the imposed
+    one unchanged from run to run: replay and document travel together, and any change
+    sends both. Impose another, ``replace(current, rev=rev + 1, ...)``, only where the
+    change comes from outside the player (reset, share link), and where `key` is not in
+    session state, for then the page was left and the browser has forgotten the player.
+    A commit that echoes an older rev is not believed, so that a late one never undoes
+    what was imposed. A new replay under the same rev (a changed cell size) stops a
+    running playback and leaves the student's choices as they are, the step clamped to
+    the readings there are.
 
     Parameters
     ----------
@@ -164,8 +164,9 @@ def map_player(
 
     Returns
     -------
-    PlayerDocument or None
-        Decoded and clamped; None before the first commit on this rev.
+    PlayerDocument
+        The last commit on this rev, decoded and checked; before the first, the imposed
+        document.
     """
     result = _component()(
         key=key,
@@ -204,14 +205,14 @@ def encode_document(document: PlayerDocument) -> dict[str, object]:
     }
 
 
-def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument | None:
+def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument:
     """Return the document that a browser committed, every field checked.
 
-    Anything may come: what is no mapping or echoes another rev gives None, and a field
-    that is missing or of the wrong kind keeps its value in `document`.
+    Anything may come: what is no mapping or echoes another rev leaves `document`, and a
+    field that is missing or of the wrong kind keeps its value there.
     """
     if not isinstance(commit, Mapping) or commit.get("rev") != document.rev:
-        return None
+        return document
     choices = {
         name: _checked(name, commit.get(name), getattr(document, name))
         for name in SHARED

@@ -22,7 +22,7 @@ function line(context, x0, y0, x1, y1) {
   context.stroke();
 }
 
-const CURVE_ROOM = { left: 4, right: 5, top: 4, bottom: 4 };
+const CURVE_ROOM = { left: 4, right: 32, top: 6, bottom: 6 };
 
 // A score over all readings, 0 to 100 % whatever the values; faint after the step.
 function drawCurve(canvas, values, step, ink) {
@@ -34,8 +34,12 @@ function drawCurve(canvas, values, step, ink) {
   const y = (v) => height - bottom - v * (height - top - bottom);
   context.strokeStyle = ink.line;
   context.lineWidth = 1;
+  context.font = `10px ${ink.font}`;
+  context.fillStyle = ink.muted;
+  context.textBaseline = "middle";
   for (const level of [0, 0.5, 1]) {
     line(context, left, Math.round(y(level)) + 0.5, width - right, Math.round(y(level)) + 0.5);
+    if (level !== 0.5) context.fillText(`${100 * level} %`, width - right + 5, y(level));
   }
   context.lineJoin = "round";
   context.strokeStyle = ink.text;

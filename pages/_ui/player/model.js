@@ -219,15 +219,11 @@ class MapModel {
   }
 }
 
-// Scores from the counts; undefined is NaN.
+// Scores from the counts, as occsim.metrics has them; 0 / 0 is NaN: undefined.
 const SCORES = {
   precision: ([tp, fp]) => tp / (tp + fp),
   recall: ([tp, , fn]) => tp / (tp + fn),
-  f2: (counts) => {
-    const p = SCORES.precision(counts);
-    const r = SCORES.recall(counts);
-    return (5 * p * r) / (4 * p + r);
-  },
+  f2: ([tp, fp, fn]) => (5 * tp) / (5 * tp + 4 * fn + fp),
 };
 
 function scoreSeries(curves, nCells) {

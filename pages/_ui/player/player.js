@@ -48,8 +48,10 @@ class Player {
       this.refresh();
       return;
     }
+    const stopped = this.playing;
     this.pause(false);
     await this.show(replay);
+    if (stopped) this.commit();
   }
 
   start(header) {
@@ -170,7 +172,7 @@ class Player {
       muted: this.resolved("var(--muted)"),
       line: this.resolved("var(--line)"),
       font: style.fontFamily,
-      mark: colours.mark,
+      mark: this.resolved("var(--accent)"),
       wall: colours.evidenceWall,
       free: colours.evidenceFree,
     };
@@ -245,6 +247,7 @@ class Player {
         if (event.pointerType !== "touch") this.hoverAt(event);
       });
       canvas.addEventListener("pointerleave", () => this.leave());
+      canvas.addEventListener("blur", () => this.leave());
       canvas.addEventListener("click", (event) => this.clickAt(event));
     }
   }
@@ -273,10 +276,32 @@ class Player {
       " ": () => this.toggle(),
     };
     const pressed = event.key === " " && inside.matches("button");
+    if (inside === this.stage.canvases.map && this.inspect(event)) return;
     if (!moves[event.key] || pressed || (ownKeys && event.key !== "Escape")) return;
     event.preventDefault();
     event.stopPropagation();
     moves[event.key]();
+  }
+
+  // On the map canvas, reached by Tab, arrows walk from cell to cell and Enter pins.
+  inspect(event) {
+    const { stage, model } = this;
+    const moves = {
+      ArrowLeft: -1, ArrowRight: 1, ArrowUp: -model.nCols, ArrowDown: model.nCols, Enter: 0,
+    };
+    if (!(event.key in moves)) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    const from = stage.hover ?? stage.pin ?? Math.floor(model.nCells / 2);
+    if (event.key === "Enter") {
+      this.pin(from);
+      return true;
+    }
+    const to = from + moves[event.key];
+    const leavesRow = Math.abs(moves[event.key]) === 1
+      && Math.floor(to / model.nCols) !== Math.floor(from / model.nCols);
+    if (to >= 0 && to < model.nCells && !leavesRow) this.hoverOn(to, stage.pointAt(to));
+    return true;
   }
 
   // ---- playback ------------------------------------------------------------------
@@ -472,14 +497,18 @@ class Player {
 
   hoverAt(event) {
     const cell = this.stage.cellAt(event);
-    if (this.state.compact || cell === null) return;
+    if (!this.state.compact && cell !== null) this.hoverOn(cell, event);
+  }
+
+  hoverOn(cell, point) {
     const moved = cell !== this.stage.hover;
     this.stage.hover = cell;
     if (moved) this.stage.draw();
-    this.showCard(event, this.cellTitle(cell), this.cellFacts(cell));
+    this.showCard(point, this.cellTitle(cell), this.cellFacts(cell));
   }
 
   leave() {
+    if (!this.model) return;
     this.hideCard();
     this.stage.hover = null;
     this.stage.draw();
@@ -488,7 +517,11 @@ class Player {
   clickAt(event) {
     const cell = this.stage.cellAt(event);
     this.root.focus({ preventScroll: true });
-    if (this.state.compact || cell === null) return;
+    if (!this.state.compact && cell !== null) this.pin(cell);
+  }
+
+  // Pinning the pinned cell again unpins it.
+  pin(cell) {
     if (cell === this.stage.pin) {
       this.unpin();
       return;
@@ -543,10 +576,12 @@ class Player {
     const l = model.mapLogOdds(c);
     const p = pFreeOf(l);
     return [
-      ["prior", `${model.isWall[c] ? "wall cell" : "space cell"}, p_free ${model.pFreePrior[model.isWall[c]].toFixed(3)}`],
+      ["class", model.isWall[c] ? "wall cell" : "space cell"],
       ["truth", model.truth[c] ? "wall" : "free"],
+      ["prior p_free", model.pFreePrior[model.isWall[c]].toFixed(3)],
       ["readings k", String(model.counts[c])],
       ["log-odds l", signed(l, 3)],
+      ["declared", model.isOccupied(c) ? "wall" : "no wall"],
       ["p_free", probability(p)],
       ["p_occupied", probability(pFreeOf(-l))],
     ];
@@ -560,6 +595,8 @@ class Player {
     for (const panel of this.root.querySelectorAll("[data-panel]")) {
       panel.hidden = panel.dataset.panel !== name;
     }
+    this.part("regions").hidden = name !== "scores";
+    this.part("axis-name").hidden = name !== "cell";
     this.refresh();
   }
 
@@ -568,11 +605,8 @@ class Player {
     this.root.querySelector("[data-panel=cell]").dataset.pinned = pin === null ? "0" : "1";
     if (pin === null) return;
     const history = this.model.history(pin);
-    const added = this.model.once ? "adds its log-odds" : "adds its log-odds less l_0";
     this.part("cell-name").textContent = this.cellTitle(pin);
     this.part("cell-facts").replaceChildren(...rows(this.cellFacts(pin)));
-    this.part("axis-name").textContent =
-      `log-odds: evidence for wall \u2190 0 \u2192 for free (below, above); each reading ${added}`;
     this.terms.draw(history, this.state.step, this.ink);
     this.root.dataset.terms = history.terms.length;
   }
@@ -606,9 +640,10 @@ class Player {
     const box = this.root.getBoundingClientRect();
     const x = event.clientX - box.left;
     const y = event.clientY - box.top;
-    const right = x + 18 + card.offsetWidth < box.width;
-    const top = Math.max(0, Math.min(y + 14, box.height - card.offsetHeight));
-    card.style.transform = `translate(${right ? x + 18 : Math.max(0, x - 18 - card.offsetWidth)}px, ${top}px)`;
+    const { offsetWidth: width, offsetHeight: height } = card;
+    const left = x + 18 + width < box.width ? x + 18 : x - 18 - width;
+    const top = y + 14 + height < box.height ? y + 14 : y - 14 - height;
+    card.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
   }
 
   hideCard() {

@@ -4,6 +4,11 @@
 const TWO_PI = 2 * Math.PI;
 const ROBOT_RADIUS = 5; // on the screen, px
 const HATCH_GAP = 5; // on the screen, px
+const PANE_GAP = 16;
+const CAPTION_HEIGHT = 22;
+const COLUMN_GAP = 32;
+const SIDE_MIN = 240; // width of the controls beside the stage, px
+const SIDE_MAX = 380;
 
 function rgbOf(hex) {
   const n = parseInt(hex.slice(1), 16);
@@ -18,9 +23,12 @@ function offscreen(width, height) {
 }
 
 // Largest scale at which two pictures fit a box, side by side or one above the other.
-function arrange(box, size, gap, captionHeight) {
-  const beside = Math.min((box.width - gap) / 2 / size.width, box.height / size.height);
-  const half = (box.height - gap - captionHeight) / 2;
+function arrange(box, size) {
+  const beside = Math.min(
+    (box.width - PANE_GAP) / 2 / size.width,
+    box.height / size.height,
+  );
+  const half = (box.height - PANE_GAP - CAPTION_HEIGHT) / 2;
   const above = Math.min(box.width / size.width, half / size.height);
   return above > beside
     ? { scale: above, stacked: true }
@@ -56,18 +64,18 @@ class Stage {
 
   // Sizes of the canvases from the room that the page gives.
   layout() {
-    const style = getComputedStyle(this.root);
-    const narrow = style.getPropertyValue("--arrangement").trim() === "column";
-    const height = parseFloat(style.getPropertyValue("--canvas-height"));
-    const width = this.element.clientWidth;
+    const arrangement = getComputedStyle(this.root).getPropertyValue("--arrangement").trim();
+    const height = this.root.querySelector(".measure").clientHeight;
+    const beside = arrangement === "wide" ? SIDE_MIN + COLUMN_GAP : 0;
+    const width = this.root.clientWidth - beside;
     const { widthPx, heightPx } = this.model;
-    const size = { width: widthPx, height: heightPx };
-    const fit = narrow
+    const fit = arrangement === "narrow"
       ? { scale: Math.min(width / widthPx, height / heightPx), stacked: true }
-      : arrange({ width, height }, size, 16, 30);
+      : arrange({ width, height }, { width: widthPx, height: heightPx });
     this.scale = fit.scale;
-    this.element.dataset.stacked = fit.stacked ? "1" : "0";
     this.ratio = Math.min(3, window.devicePixelRatio || 1);
+    this.element.dataset.stacked = fit.stacked ? "1" : "0";
+    this.giveRestToControls(width, fit);
     for (const canvas of Object.values(this.canvases)) {
       canvas.style.width = `${widthPx * this.scale}px`;
       canvas.style.height = `${heightPx * this.scale}px`;
@@ -76,6 +84,14 @@ class Stage {
     }
     this.hatched = null;
     this.scalePreview();
+  }
+
+  // Width that the pictures cannot use makes the sliders longer.
+  giveRestToControls(width, { scale, stacked }) {
+    const picture = this.model.widthPx * scale;
+    const rest = width - (stacked ? picture : 2 * picture + PANE_GAP);
+    const side = Math.min(SIDE_MAX, SIDE_MIN + Math.max(0, rest));
+    this.root.style.setProperty("--side", `${Math.floor(side)}px`);
   }
 
   // Shrunk once: a good filter on every frame would cost more than all the rest.
@@ -272,8 +288,8 @@ class Stage {
     context.globalAlpha = 0.28;
     context.lineWidth = 1.2 / scale;
     this.trace(context, here, model.nReadings);
-    context.globalAlpha = 0.9;
-    context.lineWidth = 1.6 / scale;
+    context.globalAlpha = 0.8;
+    context.lineWidth = 1.5 / scale;
     this.trace(context, 0, here + 1);
     context.globalAlpha = 1;
   }
@@ -373,6 +389,14 @@ class Stage {
     const y = ((event.clientY - box.top) / box.height) * model.heightPx;
     if (x < 0 || y < 0 || x >= model.widthPx || y >= model.heightPx) return null;
     return Math.floor(y / model.cellPx) * model.nCols + Math.floor(x / model.cellPx);
+  }
+
+  // Where a cell's centre is on the map canvas, as a pointer event would say it.
+  pointAt(c) {
+    const { x, y, side } = this.cellBox(c);
+    const box = this.canvases.map.getBoundingClientRect();
+    const clientX = box.left + (x + side / 2) * this.scale;
+    return { clientX, clientY: box.top + (y + side / 2) * this.scale };
   }
 
   dispose() {
