@@ -1,0 +1,339 @@
+"""Fronts of precision against recall, and choices made on them.
+
+References
+----------
+.. [1] C. Georgiou, S. Anderson and T. Dodd, "Constructing informative Bayesian map
+   priors", IJRR 36(3), 2017, doi 10.1177/0278364916687027; sec. 4.6 of the thesis of
+   the same work: Figs 4.6d and 4.7, set C.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from occsim._types import BoolArray, FloatArray
+from occsim.errors import ParameterError
+from occsim.sweep import PriorSweep
+
+MIN_RECALL = 0.40
+"""Threshold of set C: the source found it by experiment to keep the structure."""
+
+ROUNDING = 1e-12
+"""Slack of comparisons with a tolerance, far below one cell's share of any score."""
+
+
+@dataclass(frozen=True, eq=False)
+class ParetoFront:
+    """Prior pairs of which none beats another in both precision and recall.
+
+    Parameters
+    ----------
+    p_wall, p_space : ndarray of float64, shape (K,)
+        A pair that attains each point.
+    precision, recall : ndarray of float64, shape (K,)
+        The points: recall ascends strictly, precision descends strictly, both above 0.
+    rectangles : ndarray of float64, shape (K, 4), optional
+        Bounds p_wall_low, p_wall_high, p_space_low, p_space_high of a whole rectangle
+        of pairs, the given one among them, that attain each point; None where only
+        the pairs themselves are known.
+    """
+
+    p_wall: FloatArray
+    p_space: FloatArray
+    precision: FloatArray
+    recall: FloatArray
+    rectangles: FloatArray | None = None
+
+    def __len__(self) -> int:
+        return self.p_wall.size
+
+    @property
+    def f2(self) -> FloatArray:
+        """F2 of each point: recall in twice the weight of precision, (K,)."""
+        return 5.0 / (4.0 / self.recall + 1.0 / self.precision)
+
+    @property
+    def objectives(self) -> FloatArray:
+        """The source's objectives to minimise, 1/precision and 1/recall, (K, 2)."""
+        return np.stack((1.0 / self.precision, 1.0 / self.recall), axis=1)
+
+    def hypervolume(self, ref: Sequence[float]) -> float:
+        """Return the area that the front dominates, as `hypervolume` does.
+
+        Parameters
+        ----------
+        ref : sequence of two floats
+            Reference values of 1/precision and 1/recall.
+
+        Returns
+        -------
+        float
+        """
+        return hypervolume(self.precision, self.recall, ref)
+
+    def take(self, index: npt.ArrayLike) -> "ParetoFront":
+        """Return the front with only some of its points, by index or by flag."""
+        chosen = np.asarray(index)
+        rows = self.rectangles
+        return ParetoFront(
+            p_wall=self.p_wall[chosen],
+            p_space=self.p_space[chosen],
+            precision=self.precision[chosen],
+            recall=self.recall[chosen],
+            rectangles=None if rows is None else rows[chosen],
+        )
+
+
+def dominates(better: npt.ArrayLike, worse: npt.ArrayLike) -> BoolArray:
+    """Return whether one point is at least as good in all and better in some.
+
+    Parameters
+    ----------
+    better, worse : array_like of shape (..., 2)
+        Precision and recall; a point with NaN dominates and is dominated by nothing.
+
+    Returns
+    -------
+    ndarray of bool, shape (...)
+    """
+    a, b = np.asarray(better, np.float64), np.asarray(worse, np.float64)
+    return np.asarray((a >= b).all(axis=-1) & (a > b).any(axis=-1))
+
+
+def non_dominated(precision: npt.ArrayLike, recall: npt.ArrayLike) -> BoolArray:
+    """Return which points no other point dominates.
+
+    Parameters
+    ----------
+    precision, recall : array_like of shape (N,)
+        Points; both are better when larger.
+
+    Returns
+    -------
+    ndarray of bool, shape (N,)
+        Equal points are all marked; undefined ones (NaN) are not.
+    """
+    p, r = np.asarray(precision, np.float64), np.asarray(recall, np.float64)
+    defined = ~(np.isnan(p) | np.isnan(r))
+    marked = np.zeros(p.shape, dtype=bool)
+    levels, level = np.unique(r[defined], return_inverse=True)
+    best = np.full(levels.size + 1, -np.inf)
+    np.maximum.at(best, level, p[defined])
+    # Best precision at any strictly higher recall.
+    above = np.maximum.accumulate(best[::-1])[::-1][1:]
+    marked[defined] = (p[defined] == best[level]) & (p[defined] > above[level])
+    return marked
+
+
+def front_of(
+    p_wall: FloatArray, p_space: FloatArray, precision: FloatArray, recall: FloatArray
+) -> ParetoFront:
+    """Return the front of evaluated prior pairs, one pair for each point.
+
+    Parameters
+    ----------
+    p_wall, p_space, precision, recall : ndarray of float64, shape (N,)
+        Pairs and what they score; pairs that hit nothing (recall 0 or NaN) are left
+        out, for the objectives 1/precision and 1/recall are infinite there.
+
+    Returns
+    -------
+    ParetoFront
+    """
+    defined = np.where((precision > 0.0) & (recall > 0.0), recall, np.nan)
+    keep = np.flatnonzero(non_dominated(precision, defined))
+    _, first = np.unique(recall[keep], return_index=True)
+    keep = keep[first]
+    return ParetoFront(p_wall[keep], p_space[keep], precision[keep], recall[keep])
+
+
+def hypervolume(
+    precision: npt.ArrayLike, recall: npt.ArrayLike, ref: Sequence[float]
+) -> float:
+    """Return the area between a set of points and a reference point.
+
+    The objectives are 1/precision and 1/recall, both minimised, as in the source. The
+    area is that of all objective pairs which some point is no worse than and which
+    are no worse than the reference.
+
+    Parameters
+    ----------
+    precision, recall : array_like of shape (N,)
+        Points in any order, dominated ones allowed; NaN and 0 contribute nothing.
+    ref : sequence of two floats
+        Reference values of 1/precision and 1/recall.
+
+    Returns
+    -------
+    float
+        The area; 0 where no point is better than the reference in both.
+
+    Raises
+    ------
+    ParameterError
+        Where the reference is not two finite numbers.
+    """
+    corner = np.asarray(ref, dtype=np.float64)
+    if corner.shape != (2,) or not np.isfinite(corner).all():
+        raise ParameterError(f"ref must be two finite numbers; got {ref!r}")
+    points = np.stack((np.asarray(precision), np.asarray(recall)), axis=1)
+    points = 1.0 / points[(points > 0.0).all(axis=1)]
+    points = points[(points < corner).all(axis=1)]
+    points = points[np.argsort(points[:, 0])]
+    floor = np.minimum.accumulate(points[:, 1])
+    ceiling = np.concatenate((corner[1:], floor[:-1]))
+    return float(np.sum((corner[0] - points[:, 0]) * (ceiling - floor)))
+
+
+def reference_point(front: ParetoFront, margin: float = 0.1) -> tuple[float, float]:
+    """Return a reference for `hypervolume` a little beyond a front's worst values.
+
+    Parameters
+    ----------
+    front : ParetoFront
+        Usually the exact one.
+    margin : float, default 0.1
+        Share of the front's extent, or of its value where it has none, to add.
+
+    Returns
+    -------
+    tuple of float
+        Values of 1/precision and 1/recall; (1, 1), where nothing can lie, for an
+        empty front.
+    """
+    if not len(front):
+        return 1.0, 1.0
+    worst, best = front.objectives.max(axis=0), front.objectives.min(axis=0)
+    extent = np.where(worst > best, worst - best, worst)
+    first, second = (worst + margin * extent).tolist()
+    return first, second
+
+
+def set_c(front: ParetoFront, min_recall: float = MIN_RECALL) -> ParetoFront:
+    """Return the source's set C: the points whose recall exceeds a threshold.
+
+    Parameters
+    ----------
+    front : ParetoFront
+        Any front.
+    min_recall : float, default 0.40
+        Threshold in [0, 1].
+
+    Returns
+    -------
+    ParetoFront
+        Possibly empty.
+
+    Raises
+    ------
+    ParameterError
+        Where the threshold lies outside its domain.
+    """
+    return front.take(np.flatnonzero(_beyond(front, min_recall)))
+
+
+def recommend(front: ParetoFront, min_recall: float = MIN_RECALL) -> int | None:
+    """Return which point of a front has the best F2 within set C.
+
+    Parameters
+    ----------
+    front : ParetoFront
+        Any front.
+    min_recall : float, default 0.40
+        Threshold of set C, in [0, 1].
+
+    Returns
+    -------
+    int or None
+        Its index in `front`; None where set C is empty.
+
+    Raises
+    ------
+    ParameterError
+        Where the threshold lies outside its domain.
+    """
+    beyond = _beyond(front, min_recall)
+    if not beyond.any():
+        return None
+    return int(np.argmax(np.where(beyond, front.f2, -np.inf)))
+
+
+def _beyond(front: ParetoFront, min_recall: float) -> BoolArray:
+    if not 0.0 <= min_recall <= 1.0:
+        raise ParameterError(f"min_recall must lie in [0, 1]; got {min_recall!r}")
+    return np.asarray(front.recall > min_recall)
+
+
+def near_front(sweep: PriorSweep, front: ParetoFront, tolerance: float) -> BoolArray:
+    """Return which pairs of a sweep score within a tolerance of a front.
+
+    A pair is near where some point of the front beats it by at most the tolerance in
+    precision and by at most the tolerance in recall.
+
+    Parameters
+    ----------
+    sweep : PriorSweep
+        Scores of (A, B) pairs.
+    front : ParetoFront
+        Front of the same drawing and cells.
+    tolerance : float
+        In [0, 1], of precision and of recall alike.
+
+    Returns
+    -------
+    ndarray of bool, shape (A, B)
+        False where precision or recall is undefined, or the front is empty.
+
+    Raises
+    ------
+    ParameterError
+        Where the tolerance lies outside its domain.
+    """
+    if not 0.0 <= tolerance <= 1.0:
+        raise ParameterError(f"tolerance must lie in [0, 1]; got {tolerance!r}")
+    slack = tolerance + ROUNDING
+    # Along the front precision falls as recall rises: of the points that are not too
+    # far above in recall, the last is the easiest to match in precision.
+    last = np.searchsorted(front.recall, sweep.recall + slack, side="right")
+    lowest = np.concatenate(([np.inf], front.precision))[last]
+    return np.asarray(lowest - sweep.precision <= slack) & ~np.isnan(sweep.recall)
+
+
+def good_region(
+    sweeps: Sequence[PriorSweep], fronts: Sequence[ParetoFront], tolerance: float
+) -> BoolArray:
+    """Return which prior pairs are near the front of every drawing.
+
+    Parameters
+    ----------
+    sweeps : sequence of PriorSweep
+        One a drawing, over the same axes.
+    fronts : sequence of ParetoFront
+        The front of each of them.
+    tolerance : float
+        In [0, 1]; see `near_front`.
+
+    Returns
+    -------
+    ndarray of bool, shape (A, B)
+
+    Raises
+    ------
+    ParameterError
+        Where there is no drawing, the axes or the numbers of drawings differ, or the
+        tolerance lies outside its domain.
+    """
+    if not sweeps or len(sweeps) != len(fronts):
+        raise ParameterError(
+            "good_region needs one front a sweep and at least one of each; got "
+            f"{len(sweeps)} sweeps and {len(fronts)} fronts"
+        )
+    first = sweeps[0]
+    for sweep in sweeps[1:]:
+        same_wall = np.array_equal(sweep.p_wall, first.p_wall)
+        if not (same_wall and np.array_equal(sweep.p_space, first.p_space)):
+            raise ParameterError("the sweeps must have the same axes")
+    near = [near_front(s, f, tolerance) for s, f in zip(sweeps, fronts, strict=True)]
+    return np.asarray(np.logical_and.reduce(near), dtype=np.bool_)
