@@ -13,6 +13,7 @@ from occsim.rays.faces import SideFaces, wall_faces
 from occsim.rays.outline import trace_outline
 from occsim.rays.reach import View, seen_faces
 from occsim.rays.scan import (
+    CountArray,
     Windows,
     count_pixels,
     empty_polygons,
@@ -196,11 +197,11 @@ def _read(
 
 
 def _entries(
-    n_empty: FloatArray, n_object: FloatArray, windows: Windows
+    n_empty: CountArray, n_object: CountArray, windows: Windows
 ) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
     """Return the cells in view and what Eq. 4.22 says of them."""
-    counter = np.flatnonzero(n_empty + n_object)
-    n_empty, n_object = n_empty[counter], n_object[counter]
-    reading, cell = windows.cells(counter)
-    sizes = np.bincount(reading, minlength=windows.first_row.size)
-    return sizes, cell.astype(np.int32), inverse_sensor_model(n_empty, n_object)
+    in_view = (n_empty | n_object) != 0
+    sizes = np.count_nonzero(in_view.reshape(windows.first_row.size, -1), axis=1)
+    counter = np.flatnonzero(in_view)
+    log_odds = inverse_sensor_model(n_empty[counter], n_object[counter])
+    return sizes, windows.cells()[counter], log_odds

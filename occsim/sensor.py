@@ -14,6 +14,9 @@ P_FREE_MAX = 0.9
 P_FREE_MIN = 0.1
 """Ends of the inverse sensor model, Eq. 4.22: entirely empty, entirely object."""
 
+LOG_ODDS_MAX = float(logit(P_FREE_MAX))
+LOG_ODDS_MIN = float(logit(P_FREE_MIN))
+
 EDGE_EPS = 1e-9
 """Tolerance of every edge of the field of view, px on distances and rad on bearings.
 
@@ -93,8 +96,12 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     ndarray of float64
         ``logit(p_free(reading))``, nats, in [-ln 9, ln 9].
     """
-    empty = np.asarray(n_empty, dtype=np.float64)
-    q = empty / (empty + np.asarray(n_object, dtype=np.float64))
-    # Eq. 4.22: 0.9 for q = 1, 0.1 for q = 0, else the empty share. Clipping is our
-    # reading: unclipped, a cell 99 % empty would count for more than an empty one.
-    return logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))
+    empty, objects = np.broadcast_arrays(n_empty, n_object)
+    # Eq. 4.22, first and second case: most cells are all empty or all object.
+    log_odds = np.where(empty > 0, LOG_ODDS_MAX, LOG_ODDS_MIN)
+    mixed = np.nonzero((empty > 0) & (objects > 0))
+    # Third case: the empty share. Clipping is our reading: unclipped, a cell 99 %
+    # empty would count for more than an empty one.
+    q = empty[mixed] / (empty[mixed] + objects[mixed])
+    log_odds[mixed] = logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))
+    return log_odds

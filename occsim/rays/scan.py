@@ -8,12 +8,15 @@ changes alone, by summing along each row of cells.
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.grid import Grid
 from occsim.rays.outline import NO_FACE, Outline, points_on_faces
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View
+
+CountArray = npt.NDArray[np.int32]
 
 OWN_RADIUS_PX = 1e-6
 """Outlines keep this far from the robot: a pixel centre there has no bearing and is
@@ -58,12 +61,19 @@ class Windows:
         cell_px = self.grid.cell_px
         return self.base()[reading] + row // cell_px * self.n_cols + col // cell_px
 
-    def cells(self, counter: IntArray) -> tuple[IntArray, IntArray]:
-        """Return the reading and the flat cell of the grid of counters, (Q,) each."""
-        reading, inside = np.divmod(counter, self.n_rows * self.n_cols)
-        row, col = np.divmod(inside, self.n_cols)
-        first = self.first_row * self.grid.n_cols + self.first_col
-        return reading, first[reading] + row * self.grid.n_cols + col
+    def sums(self, counter: IntArray, weights: CountArray) -> CountArray:
+        """Return the sum of the weights, (T,), that fall to each counter, (size,)."""
+        total = np.zeros(self.size, dtype=np.int32)
+        np.add.at(total, counter, weights)
+        return total
+
+    def cells(self) -> CountArray:
+        """Return the flat cell of the grid of every counter, (size,)."""
+        corner = self.first_row * self.grid.n_cols + self.first_col
+        row = np.arange(self.n_rows, dtype=np.int32) * np.int32(self.grid.n_cols)
+        col = np.arange(self.n_cols, dtype=np.int32)
+        inside = row[:, None] + col
+        return (corner.astype(np.int32)[:, None, None] + inside).reshape(-1)
 
 
 def windows_around(view: View, grid: Grid) -> Windows:
@@ -219,7 +229,7 @@ def _closed(
     return Polygons(straight, arcs)
 
 
-def count_pixels(polygons: Polygons, windows: Windows, view: View) -> FloatArray:
+def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray:
     """Return how many pixel centres of each cell lie inside the outlines.
 
     Parameters
@@ -233,8 +243,8 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> FloatArray
 
     Returns
     -------
-    ndarray of float64, shape (windows.size,)
-        Whole numbers; the last column of each window is meaningless.
+    ndarray of int32, shape (windows.size,)
+        Zero in the spare column of each window.
     """
     base = windows.base()
     parts = [
@@ -246,19 +256,22 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> FloatArray
     # The first pixel whose centre lies at the crossing or right of it.
     col = np.clip(np.ceil(x), 0, grid.width_px).astype(np.int64)
     cell_row = np.arange(grid.height_px) // grid.cell_px * windows.n_cols
-    cell_col, within = np.divmod(np.arange(grid.width_px + 1), grid.cell_px)
+    cell_col = np.arange(grid.width_px + 1) // grid.cell_px
+    within = np.arange(grid.width_px + 1, dtype=np.int32) % np.int32(grid.cell_px)
     counter = base[reading] + cell_row[row] + cell_col[col]
-    changes = np.bincount(counter, weights=sign, minlength=windows.size)
-    part = np.bincount(counter, weights=sign * within[col], minlength=windows.size)
+    changes = windows.sums(counter, sign)
+    # Each change counts for its whole cell, less the pixels left of it.
+    before = windows.sums(counter, sign * within[col])
     by_row = changes.reshape(-1, windows.n_cols)
     np.cumsum(by_row, axis=1, out=by_row)
-    # Each change counts for its whole cell, less the pixels left of it.
-    return np.asarray(changes * grid.cell_px - part, dtype=np.float64)
+    changes *= grid.cell_px
+    changes -= before
+    return changes
 
 
 def _crossings(
     edges: Edges, is_arc: bool, grid: Grid, view: View
-) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+) -> tuple[IntArray, IntArray, FloatArray, CountArray]:
     """Return where edges cross lines of pixel centres.
 
     Returns
@@ -267,7 +280,7 @@ def _crossings(
         Reading of the batch and row of pixels.
     x : ndarray of float64, shape (T,)
         Column, such that a whole number is that pixel's centre.
-    sign : ndarray of float64, shape (T,)
+    sign : ndarray of int32, shape (T,)
         +1 where the inside lies to the right, -1 where to the left.
     """
     shift = view.y[edges.reading] - 0.5
@@ -278,7 +291,7 @@ def _crossings(
     edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
     # Bearings ascend clockwise: falling edges (y grows) have the inside on their left,
     # and of the arcs those are the ones on the right.
-    sign = np.where(rows[1] > rows[0], -1.0, 1.0)[edge]
+    sign = np.where(rows[1] > rows[0], np.int32(-1), np.int32(1))[edge]
     if is_arc:
         y = row - shift[edge]
         x = -sign * np.sqrt(np.maximum(view.reach**2 - y * y, 0.0))

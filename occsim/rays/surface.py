@@ -6,7 +6,7 @@ from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.rays.outline import NO_FACE, Outline, lateral_slope
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View, first_pixel_is_wall
-from occsim.rays.scan import Windows
+from occsim.rays.scan import CountArray, Windows
 from occsim.sensor import EDGE_EPS, OWN_PIXEL_EPS_PX, SURFACE_DEPTH_PX
 
 
@@ -16,7 +16,7 @@ def count_surface(
     occupied: BoolArray,
     windows: Windows,
     view: View,
-) -> FloatArray:
+) -> CountArray:
     """Return how many pixels of each cell are wall surface that is seen.
 
     These are the wall pixels whose centre lies at most SURFACE_DEPTH_PX beyond the hit
@@ -37,8 +37,7 @@ def count_surface(
 
     Returns
     -------
-    ndarray of float64, shape (windows.size,)
-        Whole numbers.
+    ndarray of int32, shape (windows.size,)
     """
     pieces = np.flatnonzero(outline.face != NO_FACE)
     pieces = pieces[faces.depth[outline.face[pieces]] > 0.0]
@@ -54,7 +53,7 @@ def count_surface(
     reading, row, col = (np.concatenate(part) for part in zip(*found, strict=True))
     wall = _is_wall(occupied, row, col)
     counter = windows.pixel_counters(reading[wall], row[wall], col[wall])
-    return np.bincount(counter, minlength=windows.size).astype(np.float64)
+    return windows.sums(counter, np.ones(counter.size, dtype=np.int32))
 
 
 def _row_behind(
