@@ -282,10 +282,14 @@ def test_packed_mask_comes_back(height, width, random):
     assert (unpack_mask(pack_mask(mask), (height, width)) == mask).all()
 
 
+def test_no_bytes_are_a_mask_without_any_pixel():
+    assert not unpack_mask(b"", (3, 5)).any()
+
+
 @pytest.mark.parametrize(
     ("packed", "says"),
     [
-        (b"", "must hold 2 bytes; this one holds 0"),
+        (zlib.compress(b""), "must hold 2 bytes; this one holds 0"),
         (b"not zlib", "must be zlib data"),
         (zlib.compress(b"x"), "must hold 2 bytes; this one holds 1"),
         (zlib.compress(bytes(10**6)), "must hold 2 bytes; this one holds more"),

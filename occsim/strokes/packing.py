@@ -31,7 +31,7 @@ def unpack_mask(packed: bytes, shape: tuple[int, int]) -> BoolArray:
     Parameters
     ----------
     packed : bytes
-        Compressed bits.
+        Compressed bits; empty for a mask without any.
     shape : tuple of int
         Height and width, px.
 
@@ -46,6 +46,8 @@ def unpack_mask(packed: bytes, shape: tuple[int, int]) -> BoolArray:
     """
     n_pixels = shape[0] * shape[1]
     n_bytes = -(-n_pixels // 8)
+    if not packed:
+        return np.zeros(shape, dtype=bool)
     try:
         # One byte more than expected is enough to see that there is too much.
         bits = zlib.decompressobj().decompress(packed, n_bytes + 1)
