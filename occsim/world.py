@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occsim._types import BoolArray
+from occsim.drawing import Drawing
 from occsim.errors import ParameterError
 from occsim.grid import Grid
 
@@ -51,6 +52,26 @@ class World:
         """Return the grid of this cell size over the world."""
         height, width = self.shape
         return Grid(height_px=height, width_px=width, cell_px=cell_px)
+
+
+DARK_BELOW = 128
+"""Brightness under which a pixel of a ground truth image is wall."""
+
+
+def world_from_image(image: Drawing) -> World:
+    """Return the world of a ground truth image: black is wall, white is free.
+
+    Parameters
+    ----------
+    image : Drawing
+        A picture of the structure alone.
+
+    Returns
+    -------
+    World
+        Wall where the brightness lies below one half of white.
+    """
+    return World(occupied=image.gray < DARK_BELOW)
 
 
 def wall_cells(mask: BoolArray, grid: Grid, wall_share: float = 0.0) -> BoolArray:

@@ -11,6 +11,15 @@ from enum import Enum
 from typing import Any
 
 from occsim import BehindHit, Prior, Region, Sensor, UpdateRule
+from occsim.nsga2 import Elitism
+from pages._ui.choices import (
+    Drawings,
+    Fineness,
+    FrontAxes,
+    Objectives,
+    Picture,
+    Surface,
+)
 
 
 class Overlay(Enum):
@@ -51,6 +60,18 @@ class Settings:
     rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
     region: Region = Region.EXPLORED
     overlay: Overlay = Overlay.NONE
+    surface: Surface = Surface.SOURCE
+    fineness: Fineness = Fineness.FIFTIETH
+    drawings: Drawings = Drawings.THIS
+    picture: Picture = Picture.BELIEF
+    axes: FrontAxes = FrontAxes.SCORES
+    min_recall: float = 0.4
+    tolerance: float = 0.05
+    objectives: Objectives = Objectives.INTERPOLATED
+    elitism: Elitism = Elitism.CONTROLLED
+    pop_size: int = 100
+    n_gen: int = 60
+    seed: int = 1
 
     @property
     def sensor(self) -> Sensor:
@@ -148,6 +169,63 @@ TABLE: Mapping[str, Setting] = {
         help="Score only cells that some reading has updated, or all cells.",
     ),
     "overlay": Setting(label="Overlay", help="What is drawn over the map."),
+    "surface": Setting(
+        label="Surface",
+        help="The source scored 10 × 10 pairs and interpolated between them. Exact, "
+        "every pair is scored by its own map.",
+    ),
+    "fineness": Setting(
+        label="Step of p_wall and p_space",
+        help="Distance between the pairs of the exact surface.",
+    ),
+    "drawings": Setting(
+        label="Drawings", help="The chosen drawing, or all five reference drawings."
+    ),
+    "picture": Setting(label="Maps show", help="What the small maps show."),
+    "axes": Setting(
+        label="Axes",
+        help="Precision and recall, or the quantities that the source minimises.",
+    ),
+    "min_recall": Setting(
+        label="Set C: recall above",
+        high=0.95,
+        step=0.05,
+        help="The source keeps only front points whose recall exceeds 0.40, below "
+        "which too much of the building is missing.",
+    ),
+    "tolerance": Setting(
+        label="Tolerance",
+        high=0.3,
+        step=0.01,
+        help="A pair is good for a drawing if some point of its front is better by at "
+        "most this much in precision and in recall.",
+    ),
+    "objectives": Setting(
+        label="The search sees",
+        help="The source let it see the interpolated table, which is an approximation.",
+    ),
+    "elitism": Setting(
+        label="Survival",
+        help="Plain NSGA-II keeps the best fronts. The source's tool also keeps some "
+        "of the worse ones, for variety.",
+    ),
+    "pop_size": Setting(
+        label="Population",
+        low=10,
+        high=200,
+        step=10,
+        help="Prior pairs in each generation.",
+    ),
+    "n_gen": Setting(
+        label="Generations",
+        low=5,
+        high=200,
+        step=5,
+        help="How often the population is renewed; the first one is random.",
+    ),
+    "seed": Setting(
+        label="Seed", high=9999, help="Equal seeds give equal runs, on any visit."
+    ),
 }
 
 CHOICES: Mapping[Enum, str] = {
@@ -161,7 +239,35 @@ CHOICES: Mapping[Enum, str] = {
     Overlay.WALL_MASK: "Wall mask",
     Overlay.TRUTH: "Ground truth",
     Overlay.ERRORS: "Errors",
+    Surface.SOURCE: "Source: 10 × 10, interpolated",
+    Surface.EXACT: "Exact",
+    Surface.DIFFERENCE: "Interpolated less exact",
+    Fineness.TENTH: "0.1",
+    Fineness.TWENTIETH: "0.05",
+    Fineness.FIFTIETH: "0.02",
+    Fineness.HUNDREDTH: "0.01",
+    Drawings.THIS: "This drawing",
+    Drawings.ALL: "All five",
+    Picture.BELIEF: "Probability of free",
+    Picture.ERRORS: "Errors",
+    Picture.CHANGE: "Change from the uninformative map",
+    FrontAxes.SCORES: "precision, recall",
+    FrontAxes.INVERSE: "1/precision, 1/recall",
+    Objectives.INTERPOLATED: "the source's table, interpolated",
+    Objectives.EXACT: "each pair's own map",
+    Elitism.FULL: "NSGA-II",
+    Elitism.CONTROLLED: "NSGA-II, controlled elitism",
 }
+
+
+def apart_from_prior(settings: Settings) -> Settings:
+    """Return only what the evidence and its scores depend on, the rest as by default.
+
+    Two settings that agree in this share all readings, sweeps and fronts.
+    """
+    names = ("cell_px", "range_px", "fov_deg", "behind_hit", "clear_no_hit")
+    names += ("wall_share", "truth_share", "rule", "region")
+    return Settings(**{name: getattr(settings, name) for name in names})
 
 
 def with_changes(settings: Settings, changes: Mapping[str, Any]) -> Settings:

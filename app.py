@@ -1,0 +1,40 @@
+"""Home: what this is, a replay that moves, and the way to the lessons."""
+
+import streamlit as st
+
+from occsim import load_sample
+from pages._ui import compute, shell
+from pages._ui.player import PlayerDocument, map_player
+from pages._ui.settings import Settings
+
+HOME_SAMPLE = "a"
+HOME_REPLAY = PlayerDocument(rev=1, compact=True)
+
+shell.begin("app.py")
+
+words, picture = st.columns([2, 3], gap="large", vertical_alignment="center")
+with words:
+    st.title("Occupancy grid mapping with informative priors", anchor=False)
+    st.markdown(
+        "A robot with a range sensor drives through a building and records, cell by "
+        "cell, how probable it is that the cell is free. If the architect's drawing "
+        "is known, its walls can be what the map starts from: its *prior*. Here you "
+        "can watch such maps grow, change the prior while they do, and find out which "
+        "priors help and which mislead."
+    )
+    for lesson in shell.LESSONS[1:]:
+        st.page_link(
+            lesson.path, label=f"**{lesson.label}**", icon=":material/arrow_forward:"
+        )
+        st.caption(lesson.purpose)
+with picture:
+    building = compute.sample(HOME_SAMPLE)
+    sensor = load_sample(HOME_SAMPLE).sensor
+    map_player(
+        compute.replay(building, sensor, Settings().cell_px), HOME_REPLAY, key="home"
+    )
+    st.caption(
+        f"The robot maps “{building.title}”. White is free, black is occupied, grey "
+        "is unknown. Poses are known exactly, the sensor has no noise, and the world "
+        "is flat."
+    )

@@ -1,0 +1,225 @@
+"""A building: the drawing with everything that is needed to map it."""
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+
+from occsim._types import BoolArray
+from occsim.drawing import Drawing
+from occsim.errors import DrawingError
+from occsim.samples import load_sample
+from occsim.sensor import Sensor
+from occsim.strokes import Stroke, apply_strokes
+from occsim.tour import default_tour
+from occsim.trajectory import Trajectory, inside_walls, outside, without
+from occsim.walls import WallParams, detect_walls
+from occsim.world import World
+
+DOOR_WIDTH_M = 0.9
+"""Clear width of a usual door, m: the scale of a drawing that states none."""
+
+
+@dataclass(frozen=True, eq=False)
+class CorrectedMask:
+    """A mask as it came, and the strokes that correct it.
+
+    Parameters
+    ----------
+    base : ndarray of bool, shape (H, W)
+        True on wall pixels, before any correction.
+    strokes : tuple of Stroke
+        Corrections by hand, in their order.
+    """
+
+    base: BoolArray
+    strokes: tuple[Stroke, ...] = ()
+
+    @cached_property
+    def mask(self) -> BoolArray:
+        """The corrected mask, ndarray of bool of shape (H, W)."""
+        return apply_strokes(self.base, self.strokes)
+
+    def with_strokes(self, strokes: tuple[Stroke, ...]) -> "CorrectedMask":
+        """Return the same base with other strokes.
+
+        Parameters
+        ----------
+        strokes : tuple of Stroke
+            All of them, not only the new ones.
+
+        Returns
+        -------
+        CorrectedMask
+        """
+        corrected = CorrectedMask(self.base, strokes)
+        n_known = len(self.strokes)
+        if strokes[:n_known] == self.strokes:
+            # Only what is new is drawn: the thousandth stroke costs what the first did.
+            mask = apply_strokes(self.mask, strokes[n_known:])
+            corrected.__dict__["mask"] = mask
+        return corrected
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Building:
+    """What a student maps: drawing, walls found in it, ground truth, trajectory.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What the architect gave.
+    walls : CorrectedMask
+        Walls found in the drawing, corrected by hand: the prior comes from these.
+    truth : CorrectedMask or None
+        Ground truth. Without one the wall mask serves as the world.
+    trajectory : Trajectory
+        Where the readings are taken.
+    wall_params : WallParams
+        Settings with which the walls were found.
+    waypoints : tuple of (float, float)
+        Sketch of a trajectory: x, y of its corners, px; may be empty.
+    door_px : float or None
+        Length of a door, px, where it was measured.
+    metres_per_px : float or None
+        Scale of the drawing, where it is known.
+    title, about : str
+        Words for the screen.
+
+    Raises
+    ------
+    DrawingError
+        Where the images differ in size.
+    """
+
+    drawing: Drawing
+    walls: CorrectedMask
+    trajectory: Trajectory
+    truth: CorrectedMask | None = None
+    wall_params: WallParams = WallParams()
+    waypoints: tuple[tuple[float, float], ...] = ()
+    door_px: float | None = None
+    metres_per_px: float | None = None
+    title: str = "Your building"
+    about: str = ""
+
+    def __post_init__(self) -> None:
+        height, width = self.drawing.shape
+        sizes = {"wall mask": self.walls.base.shape}
+        if self.truth is not None:
+            sizes["ground truth"] = self.truth.base.shape
+        for what, (h, w) in sizes.items():
+            if (h, w) != (height, width):
+                raise DrawingError(
+                    f"the {what} must have the drawing's size, {width} x {height} px; "
+                    f"got {w} x {h} px"
+                )
+
+    @property
+    def wall_mask(self) -> BoolArray:
+        """Walls of the prior, ndarray of bool of shape (H, W)."""
+        return self.walls.mask
+
+    @cached_property
+    def world(self) -> World:
+        """What the sensor sees: the ground truth, else the wall mask."""
+        return World(occupied=(self.truth or self.walls).mask)
+
+    @cached_property
+    def digest(self) -> str:
+        """Identifies everything that a result can depend on."""
+        content = hashlib.sha256(self.drawing.digest.encode())
+        for part in (self.wall_mask, self.world.occupied, self.trajectory.poses):
+            content.update(repr((part.shape, part.dtype.str)).encode())
+            content.update(part.tobytes())
+        return content.hexdigest()
+
+    @cached_property
+    def n_outside(self) -> int:
+        """Number of poses outside the drawing."""
+        return int(outside(self.trajectory, self.world).sum())
+
+    @cached_property
+    def n_inside_walls(self) -> int:
+        """Number of poses that stand in a wall of the world."""
+        return int(inside_walls(self.trajectory, self.world).sum())
+
+    def valid_trajectory(self) -> Trajectory:
+        """Return the trajectory without poses outside the drawing or in walls.
+
+        Raises
+        ------
+        TrajectoryError
+            Where no pose would remain.
+        """
+        drop = outside(self.trajectory, self.world) | inside_walls(
+            self.trajectory, self.world
+        )
+        return without(self.trajectory, drop)
+
+
+def building_from_sample(name: str, params: WallParams | None = None) -> Building:
+    """Return a reference drawing as a building, its walls detected.
+
+    Parameters
+    ----------
+    name : str
+        One of `occsim.sample_names`.
+    params : WallParams, optional
+        Settings of the detection; automatic by default.
+
+    Returns
+    -------
+    Building
+    """
+    sample = load_sample(name)
+    params = params or WallParams()
+    found = detect_walls(sample.drawing, params)
+    return Building(
+        drawing=sample.drawing,
+        walls=CorrectedMask(found.mask),
+        truth=CorrectedMask(sample.world.occupied),
+        trajectory=sample.trajectory,
+        wall_params=params,
+        door_px=sample.door_px,
+        metres_per_px=DOOR_WIDTH_M / sample.door_px,
+        title=sample.title,
+        about=sample.about,
+    )
+
+
+def building_from_drawing(
+    drawing: Drawing, sensor: Sensor, params: WallParams | None = None
+) -> Building:
+    """Return a building from a drawing alone, ready to be mapped.
+
+    The walls found serve as the world until a ground truth is given, and the
+    trajectory is a default tour of the free space.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What the architect gave.
+    sensor : Sensor
+        The tour is spaced to its range.
+    params : WallParams, optional
+        Settings of the detection; automatic by default.
+
+    Returns
+    -------
+    Building
+
+    Raises
+    ------
+    TrajectoryError
+        Where the walls leave no free space to drive in.
+    """
+    params = params or WallParams()
+    found = detect_walls(drawing, params)
+    world = World(occupied=found.mask)
+    return Building(
+        drawing=drawing,
+        walls=CorrectedMask(found.mask),
+        trajectory=default_tour(world, sensor),
+        wall_params=params,
+        title=drawing.name,
+    )

@@ -1,0 +1,96 @@
+"""The only cached functions: simulate once, keep results by digest, share the cores.
+
+Keys are digests and frozen parameters, never large arrays: Streamlit hashes those by
+sample, so that an edit of one pixel would return a stale result. Arguments with a
+leading underscore are not part of the key; their digest is. Results are never written
+to, so all sessions share one copy of them (``cache_resource``).
+"""
+
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import streamlit as st
+
+from occsim import EvidenceLog, Grid, Sensor, collect_evidence, truth_cells
+from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.drawing import Drawing
+from occsim.formats.replay import pack_replay
+from occsim.world import wall_cells
+
+# A class of thirty students on two cores: without this each simulation would be slowed
+# by all others, and everyone would wait for the sum.
+_CORES = threading.BoundedSemaphore(os.cpu_count() or 1)
+
+
+@contextmanager
+def core() -> Iterator[None]:
+    """Hold one of the machine's cores while computing."""
+    with _CORES:
+        yield
+
+
+@st.cache_resource(max_entries=16, show_spinner=False)
+def sample(name: str) -> Building:
+    """A reference drawing as a building, its walls detected."""
+    with core():
+        return building_from_sample(name)
+
+
+def own_building(drawing: Drawing, sensor: Sensor) -> Building:
+    """A building from an uploaded drawing; kept in the session, not cached."""
+    with core():
+        return building_from_drawing(drawing, sensor)
+
+
+def grid_of(building: Building, cell_px: int) -> Grid:
+    """The grid of a cell size over a building."""
+    return building.world.grid(cell_px)
+
+
+def evidence(building: Building, sensor: Sensor, cell_px: int) -> EvidenceLog:
+    """What all readings say, whatever the prior."""
+    return _evidence(building.digest, sensor, cell_px, building)
+
+
+@st.cache_resource(max_entries=32, show_spinner="Simulating the readings")
+def _evidence(
+    digest: str, sensor: Sensor, cell_px: int, _building: Building
+) -> EvidenceLog:
+    with core():
+        return collect_evidence(
+            _building.world, _building.trajectory, sensor, grid_of(_building, cell_px)
+        )
+
+
+def replay(
+    building: Building,
+    sensor: Sensor,
+    cell_px: int,
+    wall_share: float = 0.0,
+    truth_share: float = 0.0,
+) -> bytes:
+    """The bytes that the map player replays."""
+    shares = (wall_share, truth_share)
+    return _replay(building.digest, sensor, cell_px, shares, building)
+
+
+@st.cache_data(max_entries=32, show_spinner="Simulating the readings")
+def _replay(
+    digest: str,
+    sensor: Sensor,
+    cell_px: int,
+    shares: tuple[float, float],
+    _building: Building,
+) -> bytes:
+    log = evidence(_building, sensor, cell_px)
+    with core():
+        return pack_replay(
+            log,
+            is_wall=wall_cells(_building.wall_mask, log.grid, shares[0]),
+            truth=truth_cells(_building.world, log.grid, shares[1]),
+            trajectory=_building.trajectory,
+            sensor=sensor,
+            drawing=_building.drawing,
+        )

@@ -1,0 +1,60 @@
+"""Widgets tied to settings: one declared table gives bounds, words and units."""
+
+from enum import Enum
+from typing import Literal
+
+import streamlit as st
+
+from pages._ui import state
+from pages._ui.settings import CHOICES, TABLE
+
+NARROW_PX = 165
+"""Two sliders of this width stand side by side on a telephone of 390 px."""
+DRAWING_PX = 290
+
+
+def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
+    """Draw the slider of a numeric setting."""
+    setting = TABLE[name]
+    whole = isinstance(getattr(state.settings(), name), int)
+    number = int if whole else float
+    unit = f" ({setting.unit})" if setting.unit else ""
+    st.slider(
+        setting.label + unit,
+        number(setting.low),
+        number(setting.high),
+        step=number(setting.step),
+        help=setting.help,
+        width=width,
+        **state.bind(name),
+    )
+
+
+def toggle(name: str) -> None:
+    """Draw the switch of a setting that is on or off."""
+    st.toggle(TABLE[name].label, help=TABLE[name].help, **state.bind(name))
+
+
+def radio(name: str) -> None:
+    """Draw the options of a setting that is a choice."""
+    options: list[Enum] = list(type(getattr(state.settings(), name)))
+    st.radio(
+        TABLE[name].label,
+        options,
+        format_func=CHOICES.__getitem__,
+        help=TABLE[name].help,
+        **state.bind(name),
+    )
+
+
+def drawing_choice() -> None:
+    """Draw the choice between the reference drawings and the student's own."""
+    titles = {name: state.drawing_title(name) for name in state.choices()}
+    st.selectbox(
+        "Drawing",
+        list(titles),
+        format_func=titles.__getitem__,
+        help="Five reference drawings, and your own once you have brought one.",
+        width=DRAWING_PX,
+        **state.bind_choice(),
+    )

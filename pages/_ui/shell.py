@@ -1,0 +1,75 @@
+"""What every page starts with: set-up, the lessons, state; and what it ends with."""
+
+import contextlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import streamlit as st
+from streamlit.errors import StreamlitPageNotFoundError
+
+from pages._ui import state
+
+ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """One page in the order of the lessons."""
+
+    path: str
+    label: str
+    purpose: str
+
+
+LESSONS = (
+    Lesson("app.py", "Home", "What this is, and where to begin."),
+    Lesson(
+        "pages/1_Build_a_map.py",
+        "Build a map",
+        "A robot drives through a building and maps it, reading by reading; the "
+        "architect's drawing is what the map starts from.",
+    ),
+)
+
+# Streamlit leaves 6 rem above the first line and much between blocks; the first
+# screen has to hold the whole instrument at 1280 x 720.
+CSS = """
+<style>
+.stMainBlockContainer { padding: 0.75rem 2rem 2rem; max-width: 1600px; }
+[data-testid="stHeader"] { display: none; }
+[data-testid="stVerticalBlock"] { gap: 0.5rem; }
+.stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
+@media (max-width: 640px) { .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; } }
+</style>
+"""
+
+
+def begin(path: str) -> Lesson:
+    """Set the page up, draw the lesson navigation and return the page's lesson."""
+    lesson = next(item for item in LESSONS if item.path == path)
+    st.set_page_config(
+        page_title=f"{lesson.label} · Occupancy grid mapping",
+        page_icon=str(ICON),
+        layout="wide",
+        initial_sidebar_state="collapsed",
+    )
+    st.html(CSS)
+    state.prepare(path)
+    _navigation(path)
+    return lesson
+
+
+def _navigation(path: str) -> None:
+    # A page that is run by itself, as a test may do, has no other pages to go to.
+    with (
+        contextlib.suppress(StreamlitPageNotFoundError),
+        st.container(horizontal=True, key="lessons"),
+    ):
+        for item in LESSONS:
+            st.page_link(item.path, label=item.label, disabled=item.path == path)
+
+
+def heading(lesson: Lesson) -> None:
+    """Draw the title of a page and its one sentence of purpose."""
+    st.title(lesson.label, anchor=False)
+    st.caption(lesson.purpose)

@@ -1,0 +1,211 @@
+"""The only place that touches ``st.session_state``.
+
+One student's state is small: the `Settings`, which drawing is chosen, the building of
+their own if they brought one, a message about the last thing that went wrong, and what
+the map player was last sent. Everything else is computed from these.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+from urllib.parse import urlencode, urlsplit, urlunsplit
+
+import streamlit as st
+
+from occsim import OccsimError, load_sample, sample_names
+from occsim.building import Building
+from pages._ui import compute
+from pages._ui.player import PlayerDocument
+from pages._ui.settings import Settings, decode, encode, with_changes
+
+OWN = "own"
+PLAYER_KEY = "map_player"
+# The settings that are changed inside the player, not by a Streamlit control.
+PLAYED = ("p_wall", "p_space", "uninformative", "rule", "region", "overlay")
+
+
+def prepare(path: str) -> None:
+    """Fill a new session; note when another page was entered."""
+    state = st.session_state
+    if "settings" not in state:
+        asked = st.query_params.get("drawing", "")
+        first = asked if asked in sample_names() else sample_names()[0]
+        state.choice = first
+        state.own = None
+        state.message = ""
+        state.played = PlayerDocument()
+        state.settings = _for_sample(decode(st.query_params.to_dict()), first)
+        _half_built()
+    # A component that leaves the screen forgets what it knew.
+    if state.get("path") != path:
+        state.path = path
+        forget_player()
+
+
+def settings() -> Settings:
+    """The student's settings."""
+    return st.session_state.settings
+
+
+def change(**changes: Any) -> None:
+    """Replace some settings; what the player shows follows if it is concerned."""
+    st.session_state.settings = with_changes(settings(), changes)
+    if any(name in PLAYED for name in changes):
+        forget_player()
+
+
+def reset_all() -> None:
+    """Return to the preset of the chosen drawing; a building of one's own is kept."""
+    st.session_state.settings = Settings()
+    choose(choice())
+
+
+def link() -> str:
+    """Return the address of this page with this drawing and these settings."""
+    drawing = {} if choice() == OWN else {"drawing": choice()}
+    page = urlsplit(st.context.url or "")
+    query = urlencode(drawing | encode(settings()))
+    return urlunsplit(page._replace(query=query, fragment=""))
+
+
+def _for_sample(current: Settings, name: str) -> Settings:
+    """The settings with the range that the source gives to a drawing: a door's."""
+    if "range_px" in st.query_params:
+        return current
+    return with_changes(current, {"range_px": round(load_sample(name).sensor.range_px)})
+
+
+# --- The building -----------------------------------------------------------------
+
+
+def choice() -> str:
+    """The chosen drawing: the name of a sample, or `OWN`."""
+    return st.session_state.choice
+
+
+def choices() -> list[str]:
+    """Every drawing that can be chosen."""
+    return [*sample_names(), *([OWN] if st.session_state.own else [])]
+
+
+def choose(name: str) -> None:
+    """Choose a drawing; the sensor's range follows the length of its doors."""
+    st.session_state.choice = name
+    if name != OWN:
+        st.session_state.settings = _for_sample(settings(), name)
+    _half_built()
+
+
+def building() -> Building:
+    """The building that is mapped."""
+    if choice() == OWN:
+        return st.session_state.own
+    return compute.sample(choice())
+
+
+def drawing_title(name: str) -> str:
+    """What a drawing is called on screen."""
+    if name == OWN:
+        return f"Yours: {st.session_state.own.title}"
+    return f"{name}: {load_sample(name).title}"
+
+
+def set_own(own: Building) -> None:
+    """Keep a building of the student's own and choose it."""
+    st.session_state.own = own
+    choose(OWN)
+
+
+def edit_building(**changes: Any) -> None:
+    """Replace parts of the building; a sample becomes a building of one's own."""
+    set_own(replace(building(), **changes))
+
+
+# --- Messages -----------------------------------------------------------------------
+
+
+def attempt(action: Callable[[], None]) -> None:
+    """Run an action on what the student gave; keep what they had if it fails."""
+    st.session_state.message = ""
+    try:
+        action()
+    except OccsimError as error:
+        st.session_state.message = str(error)
+
+
+def message() -> str:
+    """What went wrong last, in one sentence; empty if nothing did."""
+    return st.session_state.message
+
+
+# --- Widgets --------------------------------------------------------------------------
+
+
+def bind(name: str) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a widget to a setting.
+
+    The widget's own value is set from the setting before each run, so that leaving the
+    page, a reset and a share link all show in it.
+    """
+    key = f"control_{name}"
+    st.session_state[key] = getattr(settings(), name)
+    return {"key": key, "on_change": _take, "args": (name, key)}
+
+
+def _take(name: str, key: str) -> None:
+    change(**{name: st.session_state[key]})
+
+
+def bind_choice() -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a select box to the chosen drawing."""
+    key = "control_choice"
+    st.session_state[key] = choice()
+    return {
+        "key": key,
+        "on_change": lambda: choose(st.session_state[key]),
+    }
+
+
+def value(key: str) -> Any:
+    """The value of a widget, for use in its callback."""
+    return st.session_state.get(key)
+
+
+# --- The map player -------------------------------------------------------------------
+
+
+def player_document() -> PlayerDocument:
+    """What the player starts from; the same object until it must change from outside.
+
+    The player owns its priors and its step while it is on the screen. A document with a
+    new ``rev`` overrules it: after a reset, another drawing, or another page.
+    """
+    state = st.session_state
+    if state.imposed is None:
+        shared = {name: getattr(settings(), name) for name in PLAYED}
+        state.imposed = state.played = replace(
+            state.played, rev=state.played.rev + 1, **shared
+        )
+    return state.imposed
+
+
+def forget_player() -> None:
+    """Impose a new document at the next run."""
+    st.session_state.imposed = None
+
+
+def take_from_player(document: PlayerDocument | None) -> None:
+    """Take over what the student chose in the player, without sending it back."""
+    if document is None:
+        return
+    shared = {name: getattr(document, name) for name in PLAYED}
+    st.session_state.settings = with_changes(settings(), shared)
+    st.session_state.played = document
+
+
+def _half_built() -> None:
+    """Let the player open in the middle of the story of the building."""
+    st.session_state.played = replace(
+        st.session_state.played, step=len(building().trajectory) // 2, pin_px=None
+    )
+    forget_player()

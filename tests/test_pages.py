@@ -1,0 +1,151 @@
+"""Every page runs, with every setting that a student can choose."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from occsim import sample_names
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = ["app.py", *(f"pages/{p.name}" for p in sorted((ROOT / "pages").glob("*.py")))]
+BUILD = "pages/1_Build_a_map.py"
+
+
+def launch(page):
+    """Run a page as its first visitor does; it must not raise."""
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    if page != "app.py":
+        app.switch_page(page)
+    app.run()
+    assert not app.exception
+    return app
+
+
+def png(image):
+    return cv2.imencode(".png", image)[1].tobytes()
+
+
+def rooms(height=160, width=220):
+    """A plan that is not one of ours: two rooms with a door between them."""
+    image = np.full((height, width), 255, np.uint8)
+    cv2.rectangle(image, (10, 10), (width - 11, height - 11), 0, 6)
+    cv2.line(image, (width // 2, 10), (width // 2, height // 2 - 15), 0, 6)
+    cv2.line(image, (width // 2, height // 2 + 15), (width // 2, height - 11), 0, 6)
+    return image
+
+
+def upload(app, label, name, data, mime="image/png"):
+    """Give a file to the uploader of this label."""
+    uploader = next(item for item in app.get("file_uploader") if item.label == label)
+    uploader.set_value((name, data, mime))
+    app.run()
+    assert not app.exception
+    return app
+
+
+def own(app):
+    return app.session_state["own"]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_page_opens_without_a_word_said(page):
+    app = launch(page)
+    assert not app.error
+
+
+@pytest.mark.parametrize("page", PAGES[1:])
+def test_every_page_can_stand_alone(page):
+    app = AppTest.from_file(str(ROOT / page), default_timeout=60).run()
+    assert not app.exception
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_reference_drawing_maps(name):
+    app = launch(BUILD)
+    app.selectbox(key="control_choice").select(name).run()
+    assert not app.exception
+    assert not app.error
+    assert app.session_state["choice"] == name
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("cell_px", 1), ("cell_px", 20), ("range_px", 5)]
+)
+def test_sliders_reach_their_ends(name, value):
+    app = launch(BUILD)
+    app.slider(key=f"control_{name}").set_value(value).run()
+    assert not app.exception
+    assert getattr(app.session_state["settings"], name) == value
+
+
+def test_the_widest_view_and_the_longest_range():
+    app = launch(BUILD)
+    app.slider(key="control_fov_deg").set_value(360)
+    app.slider(key="control_range_px").set_value(300).run()
+    assert not app.exception
+
+
+def test_an_uploaded_plan_maps_at_once():
+    app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
+    assert not app.error
+    assert own(app).title == "rooms.png"
+    assert own(app).truth is None
+    assert len(own(app).trajectory) > 10
+    assert any("No ground truth" in info.value for info in app.info)
+
+
+def test_a_ground_truth_must_have_the_drawings_size():
+    app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
+    app = upload(app, "Ground truth", "truth.png", png(rooms(80, 90)))
+    assert "220 x 160 px; got 90 x 80 px" in app.error[0].value
+    app = upload(app, "Ground truth", "truth.png", png(rooms()))
+    assert not app.error
+    assert own(app).truth is not None
+
+
+BAD_IMAGES = {
+    "empty": b"",
+    "words": b"this is no image",
+    "truncated": png(rooms())[:200],
+}
+
+
+@pytest.mark.parametrize("kind", BAD_IMAGES)
+def test_a_bad_image_is_answered_in_one_sentence_and_loses_nothing(kind):
+    app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
+    kept = own(app)
+    app = upload(app, "Drawing", f"{kind}.png", BAD_IMAGES[kind])
+    assert len(app.error) == 1
+    assert own(app) is kept
+
+
+BAD_TRAJECTORIES = {
+    "words": b"x,y,theta_deg\n1,2,north\n",
+    "nan": b"x,y,theta_deg\n1,nan,0\n",
+    "two columns": b"x,y\n1,2\n",
+    "no rows": b"x,y,theta_deg\n",
+    "too long": b"x,y,theta_deg\n" + b"30,30,0\n" * 100_000,
+}
+
+
+@pytest.mark.parametrize("kind", BAD_TRAJECTORIES)
+def test_a_bad_trajectory_is_answered_in_one_sentence_and_loses_nothing(kind):
+    app = upload(
+        launch(BUILD), "Trajectory", "bad.csv", BAD_TRAJECTORIES[kind], "text/csv"
+    )
+    assert len(app.error) == 1
+    assert own(app) is None
+
+
+def test_poses_in_walls_and_outside_are_counted_and_can_be_dropped():
+    # Truth of sample a: (100, 100) is a room, (50, 150) its outer wall, -5 outside.
+    rows = b"x,y,theta_deg\n100,100,0\n100,110,90\n50,150,0\n-5,20,0\n"
+    app = upload(launch(BUILD), "Trajectory", "path.csv", rows, "text/csv")
+    assert "1 of 4 poses lie outside" in app.warning[0].value
+    assert "1 stand in walls" in app.warning[0].value
+    next(b for b in app.button if b.label == "Drop them").click().run()
+    assert not app.warning
+    assert len(own(app).trajectory) == 2
