@@ -9,7 +9,7 @@ from occsim.drawing import Drawing
 from occsim.errors import DrawingError
 from occsim.samples import load_sample
 from occsim.sensor import Sensor
-from occsim.strokes import Stroke, apply_strokes
+from occsim.strokes import MAX_POINTS, MAX_STROKES, Stroke, apply_strokes
 from occsim.tour import default_tour
 from occsim.trajectory import Trajectory, inside_walls, outside, without
 from occsim.walls import WallParams, detect_walls
@@ -59,6 +59,24 @@ class CorrectedMask:
             corrected.__dict__["mask"] = mask
         return corrected
 
+    def with_few_strokes(self) -> "CorrectedMask":
+        """Return the same mask with no more strokes than can be read back.
+
+        Returns
+        -------
+        CorrectedMask
+            The oldest strokes of too many, or of too many points, are in its base.
+        """
+        n_points = n_kept = 0
+        for stroke in reversed(self.strokes):
+            n_points += len(stroke.points)
+            if n_points > MAX_POINTS or n_kept == MAX_STROKES:
+                break
+            n_kept += 1
+        n_old = len(self.strokes) - n_kept
+        base = apply_strokes(self.base, self.strokes[:n_old])
+        return CorrectedMask(base, self.strokes[n_old:])
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Building:
@@ -76,8 +94,9 @@ class Building:
         Where the readings are taken.
     wall_params : WallParams
         Settings with which the walls were found.
-    waypoints : tuple of (float, float)
-        Sketch of a trajectory: x, y of its corners, px; may be empty.
+    sketch : tuple of (float, float, bool)
+        Sketch of a trajectory: x, y of its corners, px, and whether the corner is a
+        waypoint set by hand or one of the many of a free line. May be empty.
     door_px : float or None
         Length of a door, px, where it was measured.
     metres_per_px : float or None
@@ -96,7 +115,7 @@ class Building:
     trajectory: Trajectory
     truth: CorrectedMask | None = None
     wall_params: WallParams = WallParams()
-    waypoints: tuple[tuple[float, float], ...] = ()
+    sketch: tuple[tuple[float, float, bool], ...] = ()
     door_px: float | None = None
     metres_per_px: float | None = None
     title: str = "Your building"
