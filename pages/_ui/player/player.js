@@ -78,7 +78,6 @@ class Player {
     const load = ++this.load;
     const model = new MapModel(decodeReplay(await inflate(replay)), this.header.constants);
     if (load !== this.load) return; // newer data is on its way
-    const pinAt = this.pinPoint();
     this.stage.model = null;
     await this.stage.show(model);
     if (load !== this.load) return;
@@ -88,7 +87,6 @@ class Player {
     this.position = this.state.step;
     this.stage.hover = null;
     this.hideCard();
-    this.pinAt(pinAt);
     this.restore();
     this.root.dataset.ready = "1";
     if (this.state.compact && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
@@ -109,6 +107,7 @@ class Player {
     this.part("speed").value = state.speed;
     this.showChoices();
     this.readInk();
+    this.restorePin();
     model.seek(state.step);
     this.recolour();
   }
@@ -141,9 +140,9 @@ class Player {
     for (const { name, label, about } of scores) {
       const value = element("output", {});
       const curve = element("canvas", { role: "img", "aria-label": `${label} over the readings` });
-      const words = element("div", { class: "tile-words" }, element("b", {}, label), value, element("small", {}, about));
+      const words = element("div", { class: "tile-words" }, element("b", {}, label), value);
       this.root.querySelector("[data-panel=scores]").append(
-        element("div", { class: "tile", "data-score": name }, words, curve),
+        element("div", { class: "tile", "data-score": name }, words, curve, element("small", {}, about)),
       );
       this.scrubOn(curve);
       this.tiles.push({ name, value, curve });
@@ -552,18 +551,10 @@ class Player {
     this.state.pin_px = [x + side / 2, y + side / 2];
   }
 
-  pinPoint() {
-    return this.state.pin_px ?? null;
-  }
-
-  pinAt(point) {
-    const { model, stage } = this;
-    stage.pin = null;
-    if (!point) return;
-    const [x, y] = point;
-    if (!(x >= 0 && y >= 0 && x < model.nCols * model.cellPx && y < model.nRows * model.cellPx)) return;
-    stage.pin = Math.floor(y / model.cellPx) * model.nCols + Math.floor(x / model.cellPx);
-    this.showTab("cell");
+  restorePin() {
+    const { pin_px: point } = this.state;
+    this.stage.pin = point ? this.stage.cellHolding(...point) : null;
+    if (this.stage.pin !== null) this.showTab("cell");
   }
 
   cellTitle(c) {

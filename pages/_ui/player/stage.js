@@ -387,8 +387,14 @@ class Stage {
     const box = event.target.getBoundingClientRect();
     const x = ((event.clientX - box.left) / box.width) * model.widthPx;
     const y = ((event.clientY - box.top) / box.height) * model.heightPx;
-    if (x < 0 || y < 0 || x >= model.widthPx || y >= model.heightPx) return null;
-    return Math.floor(y / model.cellPx) * model.nCols + Math.floor(x / model.cellPx);
+    return x < model.widthPx && y < model.heightPx ? this.cellHolding(x, y) : null;
+  }
+
+  // The flat cell that holds a point of the drawing, or null.
+  cellHolding(x, y) {
+    const { cellPx, nCols, nRows } = this.model;
+    const [row, col] = [Math.floor(y / cellPx), Math.floor(x / cellPx)];
+    return row >= 0 && col >= 0 && row < nRows && col < nCols ? row * nCols + col : null;
   }
 
   // Where a cell's centre is on the map canvas, as a pointer event would say it.

@@ -1,0 +1,284 @@
+"""The map player in a real browser: its numbers are occsim's, its controls work."""
+
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pytest
+
+from occsim import (
+    Prior,
+    Region,
+    Sensor,
+    UpdateRule,
+    collect_evidence,
+    fuse,
+    load_sample,
+    truth_cells,
+)
+from occsim.building import building_from_sample
+from occsim.metrics import scores_by_reading
+from occsim.prior import prior_from_cells
+from occsim.world import wall_cells
+
+pytestmark = pytest.mark.browser
+
+CELL_PX = 3
+FOV_RAD = np.pi / 6
+ROOT = ".player"
+
+
+@cache
+def run():
+    """The run that the page shows first, by occsim: log, wall cells, truth."""
+    building = building_from_sample("a")
+    sensor = Sensor(range_px=load_sample("a").sensor.range_px, fov_rad=FOV_RAD)
+    grid = building.world.grid(CELL_PX)
+    log = collect_evidence(building.world, building.trajectory, sensor, grid)
+    is_wall = wall_cells(building.wall_mask, grid)
+    return log, is_wall, truth_cells(building.world, grid)
+
+
+def open_player(page, app_url):
+    page.goto(f"{app_url}/Build_a_map")
+    page.wait_for_selector(f"{ROOT}[data-ready='1']")
+    return page.locator(ROOT)
+
+
+def shown(player, *names):
+    data = player.evaluate("root => ({...root.dataset})")
+    return [int(data[name]) for name in names]
+
+
+def scrub(player, step):
+    player.locator("[data-part=scrub]").fill(str(step))
+
+
+def slide(player, name, value):
+    player.locator(f"[data-slider={name}] input").fill(f"{value:.2f}")
+
+
+def choose(player, name, value):
+    player.locator(f"input[name={name}][value={value}]").check()
+
+
+def wait_until(page, player, condition):
+    page.wait_for_function(condition, arg=player.element_handle())
+
+
+def settled(page):
+    """Wait until the page has answered what the player committed."""
+    page.wait_for_timeout(600)
+    page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")
+
+
+@pytest.mark.parametrize(
+    ("rule", "region"), list(product(UpdateRule, Region)), ids=lambda value: value.value
+)
+def test_scores_are_those_of_occsim_at_any_step_and_prior(page, app_url, rule, region):
+    log, is_wall, truth = run()
+    player = open_player(page, app_url)
+    choose(player, "rule", rule.value)
+    choose(player, "region", region.value)
+    for p_wall, p_space in ((0.2, 0.9), (0.05, 1.0), (0.63, 0.31)):
+        slide(player, "p_wall", p_wall)
+        slide(player, "p_space", p_space)
+        prior_map = prior_from_cells(
+            is_wall, log.grid, Prior(p_wall=p_wall, p_space=p_space)
+        )
+        curves = scores_by_reading(log, prior_map, truth, rule, region)
+        for step in (0, 1, 137, log.n_readings, 136):
+            scrub(player, step)
+            counts = (curves.tp, curves.fp, curves.fn, curves.tn)
+            expected = [int(count[step]) for count in counts]
+            assert shown(player, "tp", "fp", "fn", "tn") == expected, step
+            explored = curves.coverage[step] * log.grid.n_cells
+            assert shown(player, "explored") == [round(explored)]
+
+
+@pytest.mark.parametrize("rule", UpdateRule)
+def test_log_odds_are_those_of_occsim_after_walking_both_ways(page, app_url, rule):
+    log, is_wall, _ = run()
+    player = open_player(page, app_url)
+    choose(player, "rule", rule.value)
+    prior_map = prior_from_cells(is_wall, log.grid, Prior(p_wall=0.2, p_space=0.9))
+    for step in (300, 37, 212):
+        scrub(player, step)
+        values = player.evaluate(
+            """root => Array.from({length: root.model.nCells},
+                 (_, c) => root.model.mapLogOdds(c))"""
+        )
+        expected = fuse(log, prior_map, rule, n_readings=step).log_odds
+        np.testing.assert_allclose(values, expected.ravel(), rtol=0, atol=1e-12)
+
+
+def test_uninformative_prior_is_one_half_and_disables_the_sliders(page, app_url):
+    log, is_wall, truth = run()
+    player = open_player(page, app_url)
+    player.get_by_label("uninformative prior").check()
+    scrub(player, 250)
+    prior_map = prior_from_cells(is_wall, log.grid, Prior.uninformative())
+    at = scores_by_reading(log, prior_map, truth).at(250)
+    assert shown(player, "tp", "fp", "fn", "tn") == [at.tp, at.fp, at.fn, at.tn]
+    for name in ("p_wall", "p_space"):
+        assert player.locator(f"[data-slider={name}] input").is_disabled()
+
+
+def test_keys_step_jump_and_play(page, app_url):
+    last = run()[0].n_readings
+    player = open_player(page, app_url)
+    player.focus()
+    steps = []
+    for key in ("Home", "ArrowRight", "Shift+ArrowRight", "ArrowLeft", "End"):
+        page.keyboard.press(key)
+        steps += shown(player, "step")
+    assert steps == [0, 1, 11, 10, last]
+    page.keyboard.press("Space")  # from the end, play starts anew
+    wait_until(page, player, "root => root.dataset.step > 3 && root.dataset.step < 200")
+    page.keyboard.press("Space")
+    assert shown(player, "playing") == [0]
+
+
+def test_replay_stops_at_the_last_reading(page, app_url):
+    last = run()[0].n_readings
+    player = open_player(page, app_url)
+    scrub(player, last - 5)
+    player.get_by_role("button", name="Play").click()
+    wait_until(page, player, "root => root.dataset.playing === '0'")
+    assert shown(player, "step") == [last]
+
+
+def test_a_curve_scrubs_where_it_is_pressed(page, app_url):
+    player = open_player(page, app_url)
+    box = player.locator("[data-score=recall] canvas").bounding_box()
+    page.mouse.click(box["x"] + 5, box["y"] + 20)
+    assert shown(player, "step")[0] < 10
+    page.mouse.click(box["x"] + box["width"] - 20, box["y"] + 20)
+    assert shown(player, "step") == [run()[0].n_readings]
+
+
+def most_read_wall_cell():
+    log, is_wall, _ = run()
+    counts = np.where(is_wall, log.totals()[1], 0)
+    return int(counts.argmax())
+
+
+def cell_point(player, cell):
+    grid = run()[0].grid
+    box = player.locator("[data-pane=map] canvas").bounding_box()
+    row, col = divmod(cell, grid.n_cols)
+    scale = box["width"] / grid.width_px
+    half = CELL_PX / 2
+    return (
+        box["x"] + (col * CELL_PX + half) * scale,
+        box["y"] + (row * CELL_PX + half) * scale,
+    )
+
+
+def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
+    """Under SUBTRACT_PRIOR reading k adds its log-odds less l_0, and they sum to l."""
+    log, is_wall, _ = run()
+    cell = most_read_wall_cell()
+    player = open_player(page, app_url)
+    page.mouse.click(*cell_point(player, cell))
+    scrub(player, log.n_readings)
+    entries = np.flatnonzero(log.cell == cell)
+    l_0 = np.log(0.18 / 0.82)
+    history = player.evaluate("(root, cell) => root.model.history(cell)", cell)
+    assert history["prior"] == pytest.approx(l_0, abs=1e-12)
+    assert [t["reading"] for t in history["terms"]] == log.reading[entries].tolist()
+    added = [term["added"] for term in history["terms"]]
+    np.testing.assert_allclose(added, log.log_odds[entries] - l_0, atol=1e-12)
+    total = fuse(log, prior_from_cells(is_wall, log.grid, Prior())).log_odds.flat[cell]
+    assert l_0 + sum(added) == pytest.approx(total, abs=1e-9)
+    facts = player.locator("[data-part=cell-facts]").inner_text()
+    assert f"{abs(total):.3f}" in facts
+
+    first = int(log.reading[entries[0]])
+    bar = player.evaluate(
+        "root => root.player.terms.x(1) + "
+        "root.player.terms.canvas.getBoundingClientRect().left"
+    )
+    box = player.locator("[data-part=terms]").bounding_box()
+    page.mouse.click(bar, box["y"] + 20)
+    assert shown(player, "step") == [first + 1]
+    page.keyboard.press("Escape")
+    assert player.locator("[data-panel=scores]").is_visible()
+
+
+def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
+    log, is_wall, _ = run()
+    cell = most_read_wall_cell()
+    player = open_player(page, app_url)
+    scrub(player, log.n_readings)
+    page.mouse.move(*cell_point(player, cell))
+    card = player.locator(".card")
+    card.wait_for()
+    text = card.inner_text()
+    assert "wall cell" in text
+    assert "0.180" in text
+    assert str(int(log.totals()[1].flat[cell])) in text
+    assert player.evaluate("root => root.player.stage.hover") == cell
+
+
+def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
+    player = open_player(page, app_url)
+    player.locator("[data-pane=map] canvas").focus()
+    before = shown(player, "step")
+    page.keyboard.press("ArrowRight")
+    first = player.evaluate("root => root.player.stage.hover")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    n_cols = run()[0].grid.n_cols
+    assert player.evaluate("root => root.player.stage.pin") == first + n_cols
+    assert shown(player, "step") == before
+
+
+def test_leaving_the_page_loses_nothing(page, app_url):
+    player = open_player(page, app_url)
+    slide(player, "p_wall", 0.55)
+    choose(player, "overlay", "errors")
+    scrub(player, 99)
+    settled(page)
+    page.get_by_test_id("stPageLink").get_by_text("Home").click()
+    page.wait_for_selector(f"{ROOT}.compact[data-ready='1']")
+    page.get_by_test_id("stPageLink").get_by_text("Build a map").first.click()
+    page.wait_for_selector(f"{ROOT}[data-step='99']")
+    player = page.locator(ROOT)
+    assert player.evaluate("root => root.dataset.pWall") == "0.55"
+    assert player.locator("input[name=overlay][value=errors]").is_checked()
+
+
+def test_another_cell_size_in_mid_play_stops_and_keeps_the_step(page, app_url):
+    player = open_player(page, app_url)
+    slide(player, "p_space", 0.6)
+    scrub(player, 100)
+    settled(page)
+    player.get_by_role("button", name="Play").click()
+    wait_until(page, player, "root => root.dataset.step > 105")
+    slider = page.get_by_test_id("stSlider").filter(has_text="Cell size")
+    slider.get_by_role("slider").press("ArrowRight")
+    wait_until(page, player, "root => root.model.cellPx === 4")
+    (step,) = shown(player, "step")
+    assert shown(player, "playing") == [0]
+    assert step > 105
+    settled(page)
+    assert shown(player, "step") == [step]
+    assert player.evaluate("root => root.dataset.pSpace") == "0.6"
+
+
+def test_a_telephone_shows_everything_in_one_column(page, app_url):
+    page.set_viewport_size({"width": 390, "height": 844})
+    player = open_player(page, app_url)
+    wide = "() => document.documentElement.scrollWidth - window.innerWidth"
+    assert page.evaluate(wide) <= 0
+    frame = player.bounding_box()
+    for part in player.locator("canvas, button, input, select").all():
+        if not part.is_visible():
+            continue
+        box = part.bounding_box()
+        assert box["x"] >= frame["x"] - 1
+        assert box["x"] + box["width"] <= frame["x"] + frame["width"] + 1
+    for button in player.locator(".transport button, .transport select").all():
+        box = button.bounding_box()
+        assert min(box["width"], box["height"]) >= 44
