@@ -27,6 +27,7 @@ ORDER = [
     {"evidence"},
     {"tour"},
     {"mapping"},
+    {"cost"},
     {"metrics"},
     {"sweep"},
     {"pareto"},

@@ -1,0 +1,174 @@
+"""Maps as pictures: belief in grey, outcomes and changes in given colours.
+
+A picture has the size of the drawing, so that one can be laid over the other; each
+cell is a square of `cell_px` pixels, cut at the right and bottom edge.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from occsim._types import BoolArray, ByteArray, FloatArray
+from occsim.errors import ParameterError
+from occsim.grid import Grid
+from occsim.logodds import is_occupied
+from occsim.mapping import OccupancyMap
+from occsim.metrics import Region
+
+HATCH_PERIOD_PX = 6
+"""Distance between the hatching lines of unscored cells, along a row."""
+
+UNSEEN = 4
+"""Outcome of a cell that is not scored; 0 to 3 are 2 * truth + declared wall."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class OutcomeColours:
+    """Colours of a map compared with the ground truth, each as ``"#rrggbb"``.
+
+    Parameters
+    ----------
+    hit, false_wall, missed_wall, free : str
+        True positives, false positives, false negatives, true negatives.
+    unseen, hatch : str
+        Cells that are not scored, and the lines drawn over them.
+    """
+
+    hit: str
+    false_wall: str
+    missed_wall: str
+    free: str
+    unseen: str
+    hatch: str
+
+
+def belief_picture(p_free: FloatArray, grid: Grid, zoom: int = 1) -> ByteArray:
+    """Return a map in grey: black is occupied, white is free.
+
+    Parameters
+    ----------
+    p_free : ndarray of float64, shape (R, C)
+        Probability of free.
+    grid : Grid
+        The cells.
+    zoom : int, default 1
+        Pixels of the picture to one of the drawing.
+
+    Returns
+    -------
+    ndarray of uint8, shape (zoom * H, zoom * W)
+        ``round(255 * p_free)``, the same grey on every map.
+
+    Raises
+    ------
+    ParameterError
+        Where the array does not have the grid's shape.
+    """
+    grey = np.rint(255.0 * p_free).astype(np.uint8)
+    return _cells_to_pixels(grey, grid, zoom)
+
+
+def outcome_picture(
+    occupancy_map: OccupancyMap,
+    truth: BoolArray,
+    colours: OutcomeColours,
+    region: Region = Region.EXPLORED,
+    zoom: int = 1,
+) -> ByteArray:
+    """Return where a map finds, invents and misses walls.
+
+    Parameters
+    ----------
+    occupancy_map : OccupancyMap
+        The map.
+    truth : ndarray of bool, shape (R, C)
+        Cells that are wall in truth.
+    colours : OutcomeColours
+        One colour for each outcome; cells that are not scored are hatched too.
+    region : Region, default Region.EXPLORED
+        Which cells are scored.
+    zoom : int, default 1
+        Pixels of the picture to one of the drawing.
+
+    Returns
+    -------
+    ndarray of uint8, shape (zoom * H, zoom * W, 3)
+        Red, green, blue.
+
+    Raises
+    ------
+    ParameterError
+        Where the truth does not have the grid's shape.
+    """
+    _require_shape(truth, occupancy_map.grid)
+    code = 2 * truth.astype(np.uint8) + is_occupied(occupancy_map.log_odds)
+    if region is Region.EXPLORED:
+        code = np.where(occupancy_map.n_updates > 0, code, UNSEEN)
+    by_code = (colours.free, colours.false_wall, colours.missed_wall, colours.hit)
+    table = np.array([_rgb(c) for c in (*by_code, colours.unseen)], dtype=np.uint8)
+    pixels = _cells_to_pixels(code.astype(np.uint8), occupancy_map.grid, zoom)
+    picture = table[pixels]
+    height, width = pixels.shape
+    diagonal = np.arange(height)[:, None] + np.arange(width)
+    lines = diagonal % (HATCH_PERIOD_PX * zoom) < zoom
+    picture[lines & (pixels == UNSEEN)] = _rgb(colours.hatch)
+    return picture
+
+
+def change_picture(
+    change: FloatArray,
+    grid: Grid,
+    colours: tuple[str, str, str],
+    limit: float = 1.0,
+    zoom: int = 1,
+) -> ByteArray:
+    """Return signed values on a scale that diverges from zero.
+
+    Parameters
+    ----------
+    change : ndarray of float64, shape (R, C)
+        Values, such as the difference of two maps' p_free.
+    grid : Grid
+        The cells.
+    colours : tuple of three str
+        Colours ``"#rrggbb"`` at ``-limit``, 0 and ``+limit``, straight lines between.
+    limit : float, default 1
+        End of the scale; values beyond it take the colour of the end.
+    zoom : int, default 1
+        Pixels of the picture to one of the drawing.
+
+    Returns
+    -------
+    ndarray of uint8, shape (zoom * H, zoom * W, 3)
+        Red, green, blue.
+
+    Raises
+    ------
+    ParameterError
+        Where the array does not have the grid's shape.
+    """
+    stops = np.array([_rgb(colour) for colour in colours], dtype=np.float64)
+    levels = np.clip(change / limit, -1.0, 1.0)
+    channels = [np.interp(levels, (-1.0, 0.0, 1.0), stops[:, c]) for c in range(3)]
+    rgb = np.rint(np.stack(channels, axis=-1)).astype(np.uint8)
+    return _cells_to_pixels(rgb, grid, zoom)
+
+
+def _cells_to_pixels(values: ByteArray, grid: Grid, zoom: int) -> ByteArray:
+    _require_shape(values, grid)
+    side = grid.cell_px * zoom
+    wide = np.repeat(np.repeat(values, side, axis=0), side, axis=1)
+    return wide[: grid.height_px * zoom, : grid.width_px * zoom]
+
+
+def _require_shape(values: npt.NDArray[np.generic], grid: Grid) -> None:
+    if values.shape[:2] != grid.shape:
+        raise ParameterError(
+            f"the map must have the grid's shape {grid.shape}; got {values.shape[:2]}"
+        )
+
+
+def _rgb(colour: str) -> tuple[int, int, int]:
+    red, green, blue = bytes.fromhex(colour.removeprefix("#"))
+    return red, green, blue

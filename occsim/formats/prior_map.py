@@ -1,0 +1,143 @@
+"""A prior map as files: picture, array, table, and the settings that made it."""
+
+import io
+import json
+from collections.abc import Mapping
+
+import numpy as np
+
+from occsim.drawing import Drawing
+from occsim.formats.image_files import png
+from occsim.formats.map_pictures import belief_picture
+from occsim.prior import Prior, PriorMap
+
+FORMAT = "occsim prior map"
+VERSION = 1
+
+Plain = str | int | float | bool | None
+"""What a settings file may hold beside the prior."""
+
+
+def prior_png(prior_map: PriorMap) -> bytes:
+    """Return a prior map as a grey PNG of the drawing's size.
+
+    Parameters
+    ----------
+    prior_map : PriorMap
+        The prior on its grid.
+
+    Returns
+    -------
+    bytes
+        8-bit PNG, H x W pixels, grey ``round(255 * p_free)``: white is free.
+    """
+    return png(belief_picture(prior_map.p_free, prior_map.grid))
+
+
+def prior_npy(prior_map: PriorMap) -> bytes:
+    """Return p_free of every cell as a NumPy file.
+
+    Parameters
+    ----------
+    prior_map : PriorMap
+        The prior on its grid.
+
+    Returns
+    -------
+    bytes
+        NPY file of float64, shape (R, C), exact; it holds no pickled objects.
+    """
+    file = io.BytesIO()
+    np.save(file, prior_map.p_free, allow_pickle=False)
+    return file.getvalue()
+
+
+def prior_csv(prior_map: PriorMap) -> str:
+    """Return p_free of every cell as a table.
+
+    Parameters
+    ----------
+    prior_map : PriorMap
+        The prior on its grid.
+
+    Returns
+    -------
+    str
+        CSV: two comment lines, then one line for each row of cells, from the top down,
+        numbers to 12 significant digits.
+    """
+    file = io.StringIO()
+    grid = prior_map.grid
+    header = (
+        "p_free, the prior probability that a cell is free\n"
+        f"{grid.n_rows} rows x {grid.n_cols} columns of {grid.cell_px} px cells, "
+        f"top row first; drawing {grid.width_px} x {grid.height_px} px"
+    )
+    np.savetxt(
+        file, prior_map.p_free, fmt="%.12g", delimiter=",", header=header, comments="# "
+    )
+    return file.getvalue()
+
+
+def prior_json(
+    prior_map: PriorMap,
+    prior: Prior,
+    drawing: Drawing,
+    chosen_on: Mapping[str, Plain] | None = None,
+) -> str:
+    """Return the settings that make a prior map again from the same drawing.
+
+    Parameters
+    ----------
+    prior_map : PriorMap
+        The prior on its grid.
+    prior : Prior
+        Its parameters.
+    drawing : Drawing
+        Where its walls were found.
+    chosen_on : mapping, optional
+        What the pair was chosen on, as plain values: sensor, update rule, scores. NaN
+        becomes null.
+
+    Returns
+    -------
+    str
+        JSON, with the versions of this library and of NumPy.
+    """
+    # The package imports its modules before it knows its version.
+    from occsim import __version__
+
+    grid = prior_map.grid
+    chosen = {name: _plain(value) for name, value in (chosen_on or {}).items()}
+    document = {
+        "format": FORMAT,
+        "version": VERSION,
+        "software": {"occsim": __version__, "numpy": np.__version__},
+        "drawing": {
+            "name": drawing.name,
+            "digest": drawing.digest,
+            "height_px": grid.height_px,
+            "width_px": grid.width_px,
+        },
+        "grid": {
+            "cell_px": grid.cell_px,
+            "n_rows": grid.n_rows,
+            "n_cols": grid.n_cols,
+            "order": "top row first, left column first",
+        },
+        "prior": {
+            "p_wall": prior.p_wall,
+            "p_space": prior.p_space,
+            "scale": prior.scale,
+            "p_free_wall_cells": prior.p_free_wall,
+            "p_free_space_cells": prior.p_free_space,
+            "n_wall_cells": int(np.count_nonzero(prior_map.is_wall)),
+        },
+        "chosen_on": chosen,
+    }
+    return json.dumps(document, indent=2, allow_nan=False, ensure_ascii=False)
+
+
+def _plain(value: Plain) -> Plain:
+    # JSON has no NaN.
+    return None if isinstance(value, float) and not np.isfinite(value) else value
