@@ -47,7 +47,8 @@ from occsim.sweep import (
     prior_surface,
     sweep_priors,
 )
-from occsim.trajectory import Trajectory
+from occsim.tour import default_tour
+from occsim.trajectory import HeadingMode, Trajectory, resample
 from occsim.trajectory_files import TrajectoryFormat, dump_trajectory, load_trajectory
 from occsim.world import World, truth_cells
 
@@ -59,6 +60,7 @@ __all__ = [
     "DrawingError",
     "EvidenceLog",
     "Grid",
+    "HeadingMode",
     "Objective",
     "OccsimError",
     "OccupancyMap",
@@ -81,6 +83,7 @@ __all__ = [
     "build_prior",
     "collect_evidence",
     "coverage",
+    "default_tour",
     "dominates",
     "dump_trajectory",
     "exact_front",
@@ -101,6 +104,7 @@ __all__ = [
     "recommend",
     "rectangles_at",
     "reference_point",
+    "resample",
     "sample_names",
     "score",
     "scores_by_reading",

@@ -1,12 +1,32 @@
 """A trajectory: the poses at which the robot takes its readings."""
 
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
+import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray
-from occsim.errors import TrajectoryError
+from occsim.errors import ParameterError, TrajectoryError
+from occsim.geometry import CARDINAL_HEADINGS_RAD, snap_heading
 from occsim.world import World
+
+MAX_RESAMPLED = 50_000
+"""Most poses that `resample` makes; as many as a trajectory file may hold."""
+
+# Nearer than this, px, two positions are one: far below what a drawing can show.
+_SAME_PLACE_PX = 1e-6
+
+
+class HeadingMode(Enum):
+    """Where the robot looks along a path."""
+
+    ALONG = "along"
+    """Along the way."""
+    CARDINAL = "cardinal"
+    """The nearest of right, down, left and up."""
+    FOUR = "four"
+    """All of the four at each position, one reading each."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -119,3 +139,120 @@ def without(trajectory: Trajectory, drop: BoolArray) -> Trajectory:
             "at least one must stand in free space"
         )
     return Trajectory(poses=trajectory.poses[~drop])
+
+
+def resample(
+    waypoints_px: npt.ArrayLike,
+    step_px: float,
+    *,
+    heading_mode: HeadingMode = HeadingMode.ALONG,
+    turn_at_waypoints: bool = False,
+) -> Trajectory:
+    """Return poses at equal steps along a path.
+
+    Parameters
+    ----------
+    waypoints_px : array_like of shape (K, 2)
+        x, y of the path's corners, px; K at least 1. A waypoint that repeats the one
+        before it is left out.
+    step_px : float
+        Along the path from one position to the next, px, above 0.
+    heading_mode : HeadingMode, default HeadingMode.ALONG
+        Where the robot looks. At a corner, along the way that leaves it; at the
+        end, the way that it came. A path of one waypoint looks right.
+    turn_at_waypoints : bool, default False
+        Whether the robot stops at each waypoint and looks in the four directions,
+        starting with the one nearest to its heading, clockwise on the screen.
+
+    Returns
+    -------
+    Trajectory
+        Positions every `step_px` from the first waypoint on, the last waypoint, and
+        with `turn_at_waypoints` all waypoints.
+
+    Raises
+    ------
+    TrajectoryError
+        Where the waypoints are none or not finite numbers in pairs, or more than
+        `MAX_RESAMPLED` poses would result.
+    ParameterError
+        Where the step is not above 0, or the mode is no `HeadingMode`.
+    """
+    points = _waypoints(waypoints_px)
+    if not 0.0 < step_px < np.inf:
+        raise ParameterError(f"step_px must be above 0 and finite; got {step_px!r}")
+    if not isinstance(heading_mode, HeadingMode):
+        raise ParameterError(
+            f"heading_mode must be a HeadingMode; got {heading_mode!r}"
+        )
+    leg = np.diff(points, axis=0)
+    passed_px = np.concatenate([[0.0], np.cumsum(np.hypot(leg[:, 0], leg[:, 1]))])
+    _require_few_poses(passed_px, step_px, heading_mode, turn_at_waypoints)
+    stops = passed_px if turn_at_waypoints else passed_px[-1:]
+    along, is_stop = _positions_along(passed_px[-1], step_px, stops)
+    x, y = (np.interp(along, passed_px, axis) for axis in points.T)
+    way = np.arctan2(leg[:, 1], leg[:, 0]) if len(leg) else np.zeros(1)
+    leaving = np.searchsorted(passed_px, along, side="right") - 1
+    theta = way[np.clip(leaving, 0, len(way) - 1)]
+    turns = is_stop & turn_at_waypoints
+    return Trajectory(poses=_with_looks(x, y, theta, turns, heading_mode))
+
+
+def _waypoints(waypoints_px: npt.ArrayLike) -> FloatArray:
+    """Return waypoints that differ from the ones before them, shape (K, 2)."""
+    try:
+        points = np.asarray(waypoints_px, dtype=np.float64)
+    except (TypeError, ValueError):
+        points = np.empty(0)
+    if points.ndim != 2 or points.shape[1] != 2 or not len(points):
+        raise TrajectoryError(
+            "waypoints must be one or more pairs x_px, y_px; "
+            f"got {np.shape(points)} values that are not"
+        )
+    if not np.isfinite(points).all():
+        raise TrajectoryError("every waypoint must be finite; got NaN or infinity")
+    moved = np.hypot(*np.diff(points, axis=0).T) > _SAME_PLACE_PX
+    return np.asarray(points[np.concatenate([[True], moved])])
+
+
+def _require_few_poses(
+    passed_px: FloatArray, step_px: float, mode: HeadingMode, turn: bool
+) -> None:
+    n_steps, n_looks = passed_px[-1] / step_px + 1.0, len(CARDINAL_HEADINGS_RAD)
+    n_poses = n_steps * (n_looks if mode is HeadingMode.FOUR else 1)
+    n_poses += n_looks * len(passed_px) * turn
+    if n_poses > MAX_RESAMPLED:
+        raise TrajectoryError(
+            f"a path of {passed_px[-1]:,.0f} px in steps of {step_px:g} px makes about "
+            f"{n_poses:,.0f} poses; at most {MAX_RESAMPLED:,} are allowed"
+        )
+
+
+def _positions_along(
+    total_px: float, step_px: float, stops_px: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Return the lengths of path at which to stand, and which of them are stops."""
+    regular = np.arange(0.0, total_px, step_px)
+    # A regular position that rounding puts a hair from a stop is that stop.
+    after = np.searchsorted(stops_px, regular)
+    beyond = np.append(stops_px, np.inf)[after] - regular
+    before = regular - np.insert(stops_px, 0, -np.inf)[after]
+    regular = regular[np.minimum(beyond, before) > _SAME_PLACE_PX]
+    along = np.concatenate([regular, stops_px])
+    order = np.argsort(along, kind="stable")
+    return along[order], order >= len(regular)
+
+
+def _with_looks(
+    x: FloatArray, y: FloatArray, theta: FloatArray, turns: BoolArray, mode: HeadingMode
+) -> FloatArray:
+    """Return poses, one at each position, or four where the robot turns."""
+    turns = turns | (mode is HeadingMode.FOUR)
+    nearest = snap_heading(theta)
+    around = np.mod(nearest[:, None] + CARDINAL_HEADINGS_RAD, 2.0 * np.pi)
+    ahead = theta if mode is HeadingMode.ALONG else nearest
+    around[:, 0] = np.where(turns, nearest, ahead)
+    looks = np.repeat(turns[:, None], around.shape[1], axis=1)
+    looks[:, 0] = True
+    position = np.nonzero(looks)[0]
+    return np.stack([x[position], y[position], around[looks]], axis=1)

@@ -7,7 +7,7 @@ import zlib
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -216,6 +216,7 @@ GOOD_FILES = [
 ]
 
 
+@settings(deadline=None)
 @given(
     data=st.sampled_from(GOOD_FILES),
     flips=st.lists(

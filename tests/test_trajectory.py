@@ -6,12 +6,21 @@ import json
 import numpy as np
 import pytest
 import scipy.io
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from occsim.errors import ParameterError, TrajectoryError
-from occsim.trajectory import Trajectory, inside_walls, outside, without
+from occsim.geometry import CARDINAL_HEADINGS_RAD
+from occsim.trajectory import (
+    MAX_RESAMPLED,
+    HeadingMode,
+    Trajectory,
+    inside_walls,
+    outside,
+    resample,
+    without,
+)
 from occsim.trajectory_files import (
     MAX_POSES,
     TrajectoryFormat,
@@ -149,6 +158,115 @@ def test_tum_quaternions_become_headings():
         load_trajectory(b"0 1 2 3 0 0 0 0", name="a.tum")
 
 
+UP, RIGHT, DOWN, LEFT = 1.5 * np.pi, 0.0, 0.5 * np.pi, np.pi
+CORNER = [[0, 0], [10, 0], [10, 5]]
+"""Right 10 px, then down 5 px."""
+
+
+def test_path_is_resampled_at_equal_steps_looking_along():
+    """Steps of 4 px along 15 px: at 0, 4, 8, 12 (2 px past the corner) and the end."""
+    expected = [
+        [0, 0, RIGHT],
+        [4, 0, RIGHT],
+        [8, 0, RIGHT],
+        [10, 2, DOWN],
+        [10, 5, DOWN],
+    ]
+    np.testing.assert_allclose(resample(CORNER, 4).poses, expected, atol=1e-12)
+
+
+def test_position_at_a_corner_looks_the_way_that_leaves_it():
+    poses = resample(CORNER, 5).poses
+    np.testing.assert_allclose(
+        poses, [[0, 0, RIGHT], [5, 0, RIGHT], [10, 0, DOWN], [10, 5, DOWN]]
+    )
+
+
+def test_robot_turns_on_the_spot_at_waypoints():
+    poses = resample(CORNER, 6, turn_at_waypoints=True).poses
+    around = [RIGHT, DOWN, LEFT, UP]
+    expected = [[0, 0, look] for look in around]
+    expected += [[6, 0, RIGHT]]
+    expected += [[10, 0, look] for look in (DOWN, LEFT, UP, RIGHT)]
+    expected += [[10, 2, DOWN]]
+    expected += [[10, 5, look] for look in (DOWN, LEFT, UP, RIGHT)]
+    np.testing.assert_allclose(poses, expected, atol=1e-12)
+
+
+def test_headings_are_snapped_or_all_four():
+    """A way 30 degrees below the right: nearest of the four is right."""
+    way = [[0, 0], [10 * np.cos(np.pi / 6), 5]]
+    along = resample(way, 5).poses
+    np.testing.assert_allclose(along[:, 2], np.pi / 6)
+    snapped = resample(way, 5, heading_mode=HeadingMode.CARDINAL).poses
+    np.testing.assert_allclose(snapped[:, :2], along[:, :2])
+    assert set(snapped[:, 2]) == {RIGHT}
+    four = resample(way, 5, heading_mode=HeadingMode.FOUR).poses
+    assert four[:, 2].tolist() == [RIGHT, DOWN, LEFT, UP] * 3
+
+
+def test_single_waypoint_is_one_pose():
+    assert resample([[3, 4]], 5).poses.tolist() == [[3, 4, 0]]
+    assert resample([[3, 4], [3, 4]], 5).poses.tolist() == [[3, 4, 0]]
+
+
+waypoints = st.lists(
+    st.tuples(st.floats(-500, 500), st.floats(-500, 500)), min_size=1, max_size=8
+)
+
+
+@settings(deadline=None)
+@given(
+    points=waypoints,
+    step=st.floats(0.5, 300),
+    mode=st.sampled_from(HeadingMode),
+    turn=st.booleans(),
+)
+def test_resampled_path_keeps_step_ends_and_headings(points, step, mode, turn):
+    poses = resample(points, step, heading_mode=mode, turn_at_waypoints=turn).poses
+    gaps = np.hypot(*np.diff(poses[:, :2], axis=0).T)
+    assert (gaps <= step + 1e-6).all()
+    np.testing.assert_allclose(poses[0, :2], points[0], atol=1e-6)
+    np.testing.assert_allclose(poses[-1, :2], points[-1], atol=1e-4)
+    if mode is not HeadingMode.ALONG:
+        assert set(poses[:, 2]) <= set(CARDINAL_HEADINGS_RAD)
+    if mode is HeadingMode.FOUR:
+        looks = poses.reshape(-1, 4, 3)
+        assert (looks[:, :, :2] == looks[:, :1, :2]).all()
+        assert (np.sort(looks[:, :, 2]) == CARDINAL_HEADINGS_RAD).all()
+    if turn:
+        for point in points:
+            at = np.hypot(*(poses[:, :2] - point).T) < 1e-4
+            assert set(CARDINAL_HEADINGS_RAD) <= set(poses[at, 2])
+    # No longer than the path, and as long where every waypoint is a position.
+    length = np.hypot(*np.diff(np.array(points), axis=0).T).sum()
+    assert gaps.sum() <= length + 1e-6
+    if turn:
+        assert gaps.sum() == pytest.approx(length, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ([], "one or more pairs"),
+        ([[1, 2, 3]], "one or more pairs"),
+        ([["a", "b"]], "one or more pairs"),
+        ([[1, np.nan]], "finite"),
+        ([[0, 0], [MAX_RESAMPLED + 5, 0]], "at most 50,000"),
+    ],
+)
+def test_bad_waypoints_are_refused(points, said):
+    with pytest.raises(TrajectoryError, match=said):
+        resample(points, 1)
+
+
+def test_bad_resampling_is_refused():
+    with pytest.raises(ParameterError, match="step_px must be above 0"):
+        resample(CORNER, 0)
+    with pytest.raises(ParameterError, match="must be a HeadingMode"):
+        resample(CORNER, 1, heading_mode="along")
+
+
 def npy(values, **options) -> bytes:
     out = io.BytesIO()
     np.save(out, values, **options)
@@ -249,6 +367,7 @@ def test_matlab_file_that_unpacks_without_end_is_refused():
 
 
 @pytest.mark.parametrize("file_format", list(TrajectoryFormat))
+@settings(deadline=None)
 @given(values=poses)
 def test_every_format_gives_back_what_was_written(file_format, values):
     trajectory = Trajectory(poses=values)
@@ -279,6 +398,7 @@ def test_unknown_format_is_refused():
         dump_trajectory(Trajectory(poses=TWO), "xls")
 
 
+@settings(deadline=None)
 @given(
     data=st.binary(max_size=200) | st.text("0123,.; \t\nxy#[]{}\"'-e").map(str.encode)
 )
@@ -291,6 +411,7 @@ def test_any_bytes_are_read_or_refused(data):
     assert "\n" not in message
 
 
+@settings(deadline=None)
 @given(
     data=st.sampled_from(
         [
