@@ -1,8 +1,11 @@
 """A building: the drawing with everything that is needed to map it."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+
+import numpy as np
 
 from occsim._types import BoolArray
 from occsim.drawing import Drawing
@@ -10,8 +13,15 @@ from occsim.errors import DrawingError
 from occsim.samples import load_sample
 from occsim.sensor import Sensor
 from occsim.strokes import MAX_POINTS, MAX_STROKES, Stroke, apply_strokes
-from occsim.tour import default_tour
-from occsim.trajectory import Trajectory, inside_walls, outside, without
+from occsim.tour import default_tour, random_poses
+from occsim.trajectory import (
+    HeadingMode,
+    Trajectory,
+    inside_walls,
+    outside,
+    resample,
+    without,
+)
 from occsim.walls import WallParams, detect_walls
 from occsim.world import World
 
@@ -76,6 +86,21 @@ class CorrectedMask:
         n_old = len(self.strokes) - n_kept
         base = apply_strokes(self.base, self.strokes[:n_old])
         return CorrectedMask(base, self.strokes[n_old:])
+
+
+def empty_mask(drawing: Drawing) -> CorrectedMask:
+    """Return a mask of a drawing's size without any wall.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        Gives the size.
+
+    Returns
+    -------
+    CorrectedMask
+    """
+    return CorrectedMask(np.zeros(drawing.shape, dtype=bool))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -153,14 +178,24 @@ class Building:
         return content.hexdigest()
 
     @cached_property
-    def n_outside(self) -> int:
-        """Number of poses outside the drawing."""
-        return int(outside(self.trajectory, self.world).sum())
+    def is_outside(self) -> BoolArray:
+        """Which poses lie outside the drawing, ndarray of bool of shape (S,)."""
+        return outside(self.trajectory, self.world)
 
     @cached_property
+    def is_inside_walls(self) -> BoolArray:
+        """Which poses stand in a wall of the world, ndarray of bool of shape (S,)."""
+        return inside_walls(self.trajectory, self.world)
+
+    @property
+    def n_outside(self) -> int:
+        """Number of poses outside the drawing."""
+        return int(self.is_outside.sum())
+
+    @property
     def n_inside_walls(self) -> int:
         """Number of poses that stand in a wall of the world."""
-        return int(inside_walls(self.trajectory, self.world).sum())
+        return int(self.is_inside_walls.sum())
 
     def valid_trajectory(self) -> Trajectory:
         """Return the trajectory without poses outside the drawing or in walls.
@@ -170,10 +205,7 @@ class Building:
         TrajectoryError
             Where no pose would remain.
         """
-        drop = outside(self.trajectory, self.world) | inside_walls(
-            self.trajectory, self.world
-        )
-        return without(self.trajectory, drop)
+        return without(self.trajectory, self.is_outside | self.is_inside_walls)
 
 
 def building_from_sample(name: str, params: WallParams | None = None) -> Building:
@@ -241,4 +273,65 @@ def building_from_drawing(
         trajectory=default_tour(world, sensor),
         wall_params=params,
         title=drawing.name,
+    )
+
+
+def random_trajectory(world: World, n: int, seed: int) -> Trajectory:
+    """Return random poses in free space, the same ones for the same seed.
+
+    Parameters
+    ----------
+    world : World
+        What the robot stands in.
+    n : int
+        Poses, 1 or more.
+    seed : int
+        Decides, 0 or more.
+
+    Returns
+    -------
+    Trajectory
+        With the four cardinal headings.
+
+    Raises
+    ------
+    TrajectoryError
+        Where there is no free space.
+    """
+    return random_poses(world, n, rng=np.random.default_rng(seed))
+
+
+def sketched_trajectory(
+    sketch: Sequence[tuple[float, float, bool]],
+    step_px: float,
+    heading_mode: HeadingMode = HeadingMode.ALONG,
+    turn: bool = False,
+) -> Trajectory:
+    """Return the readings along a sketch.
+
+    Parameters
+    ----------
+    sketch : sequence of (float, float, bool)
+        As in `Building`; at least one corner.
+    step_px : float
+        Between readings, px.
+    heading_mode : HeadingMode, default HeadingMode.ALONG
+        Where the robot looks.
+    turn : bool, default False
+        Whether it turns on the spot at waypoints set by hand.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    TrajectoryError, ParameterError
+        As `occsim.resample` does.
+    """
+    return resample(
+        [(x, y) for x, y, _ in sketch],
+        step_px,
+        heading_mode=heading_mode,
+        turn_at_waypoints=[turn and is_waypoint for *_, is_waypoint in sketch],
     )

@@ -146,7 +146,7 @@ def resample(
     step_px: float,
     *,
     heading_mode: HeadingMode = HeadingMode.ALONG,
-    turn_at_waypoints: bool = False,
+    turn_at_waypoints: bool | npt.ArrayLike = False,
 ) -> Trajectory:
     """Return poses at equal steps along a path.
 
@@ -160,15 +160,16 @@ def resample(
     heading_mode : HeadingMode, default HeadingMode.ALONG
         Where the robot looks. At a corner, along the way that leaves it; at the
         end, the way that it came. A path of one waypoint looks right.
-    turn_at_waypoints : bool, default False
-        Whether the robot stops at each waypoint and looks in the four directions,
-        starting with the one nearest to its heading, clockwise on the screen.
+    turn_at_waypoints : bool or array_like of bool, shape (K,), default False
+        Whether the robot stops at each waypoint, or at these, and looks in the four
+        directions, starting with the one nearest to its heading, clockwise on the
+        screen.
 
     Returns
     -------
     Trajectory
         Positions every `step_px` from the first waypoint on, the last waypoint, and
-        with `turn_at_waypoints` all waypoints.
+        the waypoints at which it turns.
 
     Raises
     ------
@@ -176,9 +177,11 @@ def resample(
         Where the waypoints are none or not finite numbers in pairs, or more than
         `MAX_RESAMPLED` poses would result.
     ParameterError
-        Where the step is not above 0, or the mode is no `HeadingMode`.
+        Where the step is not above 0, the mode is no `HeadingMode`, or it is not said
+        for each waypoint whether to turn.
     """
-    points = _waypoints(waypoints_px)
+    points, is_new = _waypoints(waypoints_px)
+    turning = _turning(turn_at_waypoints, is_new)
     if not 0.0 < step_px < np.inf:
         raise ParameterError(f"step_px must be above 0 and finite; got {step_px!r}")
     if not isinstance(heading_mode, HeadingMode):
@@ -187,19 +190,19 @@ def resample(
         )
     leg = np.diff(points, axis=0)
     passed_px = np.concatenate([[0.0], np.cumsum(np.hypot(leg[:, 0], leg[:, 1]))])
-    _require_few_poses(passed_px, step_px, heading_mode, turn_at_waypoints)
-    stops = passed_px if turn_at_waypoints else passed_px[-1:]
+    _require_few_poses(passed_px[-1], step_px, heading_mode, int(turning.sum()))
+    stops = np.union1d(passed_px[turning], passed_px[-1:])
     along, is_stop = _positions_along(passed_px[-1], step_px, stops)
     x, y = (np.interp(along, passed_px, axis) for axis in points.T)
     way = np.arctan2(leg[:, 1], leg[:, 0]) if len(leg) else np.zeros(1)
     leaving = np.searchsorted(passed_px, along, side="right") - 1
     theta = way[np.clip(leaving, 0, len(way) - 1)]
-    turns = is_stop & turn_at_waypoints
+    turns = is_stop & np.isin(along, passed_px[turning])
     return Trajectory(poses=_with_looks(x, y, theta, turns, heading_mode))
 
 
-def _waypoints(waypoints_px: npt.ArrayLike) -> FloatArray:
-    """Return waypoints that differ from the ones before them, shape (K, 2)."""
+def _waypoints(waypoints_px: npt.ArrayLike) -> tuple[FloatArray, BoolArray]:
+    """Return waypoints that differ from the ones before them, and which these are."""
     try:
         points = np.asarray(waypoints_px, dtype=np.float64)
     except (TypeError, ValueError):
@@ -212,18 +215,32 @@ def _waypoints(waypoints_px: npt.ArrayLike) -> FloatArray:
     if not np.isfinite(points).all():
         raise TrajectoryError("every waypoint must be finite; got NaN or infinity")
     moved = np.hypot(*np.diff(points, axis=0).T) > _SAME_PLACE_PX
-    return np.asarray(points[np.concatenate([[True], moved])])
+    is_new = np.concatenate([[True], moved])
+    return np.asarray(points[is_new]), is_new
+
+
+def _turning(turn_at_waypoints: bool | npt.ArrayLike, is_new: BoolArray) -> BoolArray:
+    """Return at which of the waypoints that are new the robot turns."""
+    turning = np.asarray(turn_at_waypoints, dtype=bool)
+    if turning.ndim and turning.shape != is_new.shape:
+        raise ParameterError(
+            "turn_at_waypoints must be one truth value, or one for each of the "
+            f"{len(is_new)} waypoints; got shape {turning.shape}"
+        )
+    # Of waypoints at one place, one that turns is enough.
+    each = np.broadcast_to(turning, is_new.shape)
+    return np.asarray(np.logical_or.reduceat(each, np.flatnonzero(is_new)))
 
 
 def _require_few_poses(
-    passed_px: FloatArray, step_px: float, mode: HeadingMode, turn: bool
+    length_px: float, step_px: float, mode: HeadingMode, n_turns: int
 ) -> None:
-    n_steps, n_looks = passed_px[-1] / step_px + 1.0, len(CARDINAL_HEADINGS_RAD)
+    n_steps, n_looks = length_px / step_px + 1.0, len(CARDINAL_HEADINGS_RAD)
     n_poses = n_steps * (n_looks if mode is HeadingMode.FOUR else 1)
-    n_poses += n_looks * len(passed_px) * turn
+    n_poses += n_looks * n_turns
     if n_poses > MAX_RESAMPLED:
         raise TrajectoryError(
-            f"a path of {passed_px[-1]:,.0f} px in steps of {step_px:g} px makes about "
+            f"a path of {length_px:,.0f} px in steps of {step_px:g} px makes about "
             f"{n_poses:,.0f} poses; at most {MAX_RESAMPLED:,} are allowed"
         )
 

@@ -193,6 +193,17 @@ def test_robot_turns_on_the_spot_at_waypoints():
     np.testing.assert_allclose(poses, expected, atol=1e-12)
 
 
+def test_turns_may_be_told_waypoint_by_waypoint():
+    # A free line from (0, 0) over (2, 0) to a waypoint at (4, 0), where it turns.
+    line = [(0, 0), (2, 0), (4, 0), (4, 0)]
+    poses = resample(line, 3, turn_at_waypoints=[False, False, True, False]).poses
+    np.testing.assert_allclose(poses[:, 0], [0, 3, 4, 4, 4, 4], atol=1e-12)
+    quarters = np.arange(4) * np.pi / 2
+    np.testing.assert_allclose(poses[2:, 2], quarters, atol=1e-12)
+    with pytest.raises(ParameterError, match=r"each of the 4 waypoints; got shape"):
+        resample(line, 3, turn_at_waypoints=[True])
+
+
 def test_headings_are_snapped_or_all_four():
     """A way 30 degrees below the right: nearest of the four is right."""
     way = [[0, 0], [10 * np.cos(np.pi / 6), 5]]
