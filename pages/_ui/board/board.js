@@ -44,6 +44,9 @@ function opened(parentElement) {
     selected: -1,
     partsInWalls: 0,
     loading: 0,
+    waiting: null,
+    commitTimer: 0,
+    lastCommit: -Infinity,
   };
   for (const [name, tool] of Object.entries(TOOLS)) if (tool.width) b.widths[name] = tool.width;
   listen(b);
@@ -67,6 +70,7 @@ function close(b) {
 
 function stopTimers(b) {
   clearTimeout(b.longPress);
+  clearTimeout(b.commitTimer);
   cancelAnimationFrame(b.frame);
 }
 
@@ -96,6 +100,12 @@ async function decodedMask(packed, header) {
 }
 
 function take(b, header, bitmap, base) {
+  // The same document again (its strokes folded) can wait until the hand lets go.
+  if (b.gesture && b.doc.identity === identityOf(header)) {
+    b.waiting = () => take(b, header, bitmap, base);
+    return;
+  }
+  b.waiting = null;
   stopGesture(b);
   const isNewMode = !b.header || b.header.mode !== header.mode;
   const isNewSize = b.size.width !== header.width || b.size.height !== header.height;

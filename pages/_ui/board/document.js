@@ -7,6 +7,7 @@
 // same rev with a higher `first`, and what was drawn meanwhile stays.
 
 const UNDO_DEPTH = 200;
+const COMMIT_GAP_MS = 120;
 
 function newDocument(header, base) {
   return {
@@ -89,13 +90,25 @@ function redo(b) {
   commit(b);
 }
 
+// At once, but not more often than Streamlit can follow: of a quick series the last
+// commit holds all the others.
 function commit(b) {
+  remember(b);
+  showState(b);
+  if (b.commitTimer) return;
+  const wait = b.lastCommit + COMMIT_GAP_MS - performance.now();
+  if (wait <= 0) return flush(b);
+  b.commitTimer = setTimeout(() => flush(b), wait);
+}
+
+function flush(b) {
+  clearTimeout(b.commitTimer);
+  b.commitTimer = 0;
+  b.lastCommit = performance.now();
   const { rev, token, mode } = b.header;
   const edits =
     mode === "walls"
       ? { first: b.doc.first, strokes: b.doc.strokes.map((stroke) => stroke.code) }
       : { points: b.doc.points.map(([x, y, kind]) => [Math.round(x * LATTICE), Math.round(y * LATTICE), kind]) };
   b.setStateValue("committed", { rev, token, ...edits });
-  remember(b);
-  showState(b);
 }

@@ -11,7 +11,7 @@ function listen(b) {
   on(canvas, "pointermove", (event) => pointerMove(b, event));
   on(canvas, "pointerup", (event) => pointerUp(b, event));
   on(canvas, "pointercancel", (event) => pointerLost(b, event));
-  on(canvas, "pointerleave", () => hoverAt(b, null));
+  on(canvas, "pointerleave", () => pointerLeave(b));
   on(canvas, "contextmenu", (event) => contextMenu(b, event));
   on(canvas, "wheel", (event) => wheel(b, event), { passive: false });
   on(canvas, "blur", () => ((b.keyboard = null), (b.space = false), requestPaint(b)));
@@ -48,9 +48,18 @@ function startGesture(b, point, event) {
 
 function stopGesture(b) {
   clearTimeout(b.longPress);
-  if (b.gesture) b.gesture.cancel();
+  const gesture = b.gesture;
   b.gesture = null;
+  if (gesture) gesture.cancel();
+  takeWaiting(b);
   requestPaint(b);
+}
+
+// What Python sent while the hand was drawing.
+function takeWaiting(b) {
+  const waiting = b.waiting;
+  b.waiting = null;
+  if (waiting) waiting();
 }
 
 // Touch has no right button: a point held still is deleted.
@@ -96,6 +105,7 @@ function endGesture(b) {
   const gesture = b.gesture;
   b.gesture = null;
   gesture.end();
+  takeWaiting(b);
   showState(b);
   requestPaint(b);
 }
@@ -136,6 +146,12 @@ function movePinch(b) {
   b.pinch = now;
   showState(b);
   requestPaint(b);
+}
+
+// Whoever leaves the canvas may be about to leave the page.
+function pointerLeave(b) {
+  hoverAt(b, null);
+  if (b.commitTimer) flush(b);
 }
 
 function hoverAt(b, point) {

@@ -1,0 +1,68 @@
+"""A small app with one drawing board, for its tests: `?mode=walls` and so on.
+
+It keeps the two documents as `drawing_board` asks its caller to, and writes what Python
+knows below the board. A checkbox takes the board off the screen.
+"""
+
+import hashlib
+import json
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import streamlit as st
+
+from occsim.strokes import encode_strokes, pack_mask
+from pages._ui.board import BoardDocument, BoardMode, drawing_board
+
+HEIGHT_PX, WIDTH_PX = 240, 360
+
+
+def first_document(mode):
+    wall = np.zeros((HEIGHT_PX, WIDTH_PX), dtype=bool)
+    wall[100:110, 20:340] = True
+    base = b"" if mode in (BoardMode.MEASURE, BoardMode.CROP) else pack_mask(wall)
+    return BoardDocument(height_px=HEIGHT_PX, width_px=WIDTH_PX, base=base)
+
+
+def paper():
+    image = np.full((HEIGHT_PX, WIDTH_PX, 3), 255, dtype=np.uint8)
+    cv2.putText(image, "Plan", (30, 60), cv2.FONT_HERSHEY_SIMPLEX, 1.2, (90, 90, 90), 2)
+    return cv2.imencode(".png", image)[1].tobytes()
+
+
+def report(current):
+    mask = current.mask()
+    facts = {
+        "first": current.first,
+        "strokes": encode_strokes(current.strokes),
+        "n_strokes": current.first + len(current.strokes),
+        "points": [[p.x_px, p.y_px, p.is_waypoint] for p in current.points],
+        "mask": hashlib.sha1(mask.tobytes()).hexdigest(),
+        "rev": current.rev,
+    }
+    st.text(json.dumps(facts))
+
+
+st.set_page_config(layout="wide")
+mode = BoardMode(st.query_params.get("mode", "walls"))
+state = st.session_state
+if "current" not in state:
+    state.current = state.imposed = first_document(mode)
+if st.button("Reset"):
+    state.current = state.imposed = replace(
+        first_document(mode), token=state.current.token, rev=state.current.rev + 1
+    )
+is_shown = st.checkbox("Show", value=True)
+if is_shown:
+    if "board" not in state:
+        state.imposed = replace(state.current, rev=state.current.rev + 1)
+        state.current = state.imposed
+    drawn = drawing_board(
+        paper(), state.imposed, mode=mode, key="board", metres_per_px=0.02
+    )
+    if drawn is not None:
+        state.current = drawn
+        if drawn.should_fold:
+            state.current = state.imposed = drawn.folded()
+report(state.current)
