@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -43,7 +44,7 @@ def wall_faces(occupied: BoolArray) -> tuple[SideFaces, ...]:
     tuple of SideFaces, length 4
         Seen looking right, down, left and up.
     """
-    transposed = np.ascontiguousarray(occupied.T)
+    transposed = cv2.transpose(occupied.view(np.uint8)).view(np.bool_)
     left, right = _near_and_far_faces(transposed)
     top, bottom = _near_and_far_faces(occupied)
     return left, top, right, bottom

@@ -15,6 +15,10 @@ SIDE_COS = np.array([1.0, 0.0, -1.0, 0.0])
 SIDE_SIN = np.array([0.0, 1.0, 0.0, -1.0])
 """Unit vector of each side's looking direction (right, down, left, up), exactly."""
 
+REACH_MAX_PX = 1e6
+"""A longer reach is cut to this, farther than any image extends: its square must not
+swamp the tolerances."""
+
 
 @dataclass(frozen=True, eq=False)
 class View:
@@ -43,7 +47,8 @@ class View:
         """Return the view of a sensor at poses of shape (N, 3)."""
         x, y, theta = np.ascontiguousarray(poses.T)
         half = min(0.5 * sensor.fov_rad + EDGE_EPS, np.pi)
-        return cls(x, y, theta, sensor.range_px + EDGE_EPS, half)
+        reach = min(sensor.range_px, REACH_MAX_PX) + EDGE_EPS
+        return cls(x, y, theta, reach, half)
 
     @property
     def size(self) -> int:
