@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from occsim.errors import ParameterError, TrajectoryError
+from occsim.formats.metric import MetricFrame, poses_to_image, poses_to_metric
 from occsim.geometry import CARDINAL_HEADINGS_RAD
 from occsim.trajectory import (
     MAX_RESAMPLED,
@@ -446,3 +447,27 @@ def test_damaged_files_are_read_or_refused(data, flips):
     except TrajectoryError as error:  # any other error fails the test
         message = str(error)
     assert len(message) < 320
+
+
+def test_metric_poses_with_y_up_come_into_the_image_frame():
+    """A map of 100 px height at 0.05 m a pixel, its lower left corner at (-1, 2) m.
+
+    (0, 2) m is 1 m = 20 px right of that corner, at the bottom edge, y = 100 px;
+    (-1, 7) m is 5 m = 100 px above it, at the top edge. A yaw to the left (up on the
+    screen) is a negative heading.
+    """
+    frame = MetricFrame(height_px=100, metres_per_px=0.05, origin_x_m=-1, origin_y_m=2)
+    metric = [[0, 2, 0], [-1, 7, np.pi / 2]]
+    expected = [[20, 100, 0], [0, 0, -np.pi / 2]]
+    image = poses_to_image(metric, frame)
+    np.testing.assert_allclose(image.poses, expected, atol=1e-12)
+    np.testing.assert_allclose(poses_to_metric(image, frame), metric, atol=1e-12)
+
+
+def test_metric_frame_is_checked():
+    with pytest.raises(ParameterError, match="metres_per_px must be above 0"):
+        MetricFrame(height_px=10, metres_per_px=0)
+    with pytest.raises(ParameterError, match="height_px must be 1 or more"):
+        MetricFrame(height_px=0, metres_per_px=1)
+    with pytest.raises(ParameterError, match="the origin must be finite"):
+        MetricFrame(height_px=1, metres_per_px=1, origin_x_m=float("nan"))

@@ -1,0 +1,100 @@
+"""Metric frames with y up, as ROS, TUM and CARMEN use them, each way."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from occsim._types import FloatArray
+from occsim.errors import ParameterError
+from occsim.geometry import wrap_angle
+from occsim.trajectory import Trajectory
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class MetricFrame:
+    """Where a drawing lies in a metric frame: x right, y up, headings to the left.
+
+    The convention of a ROS map file without rotation.
+
+    Parameters
+    ----------
+    height_px : int
+        Height of the drawing, px, 1 or more.
+    metres_per_px : float
+        Scale (a map file's ``resolution``), above 0.
+    origin_x_m, origin_y_m : float, default 0
+        Where the drawing's lower left corner lies, m (a map file's ``origin``).
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+
+    height_px: int
+    metres_per_px: float
+    origin_x_m: float = 0.0
+    origin_y_m: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.height_px < 1:
+            raise ParameterError(f"height_px must be 1 or more; got {self.height_px!r}")
+        if not 0.0 < self.metres_per_px < np.inf:
+            raise ParameterError(
+                f"metres_per_px must be above 0 and finite; got {self.metres_per_px!r}"
+            )
+        if not np.isfinite([self.origin_x_m, self.origin_y_m]).all():
+            raise ParameterError(
+                "the origin must be finite; "
+                f"got ({self.origin_x_m!r}, {self.origin_y_m!r})"
+            )
+
+
+def poses_to_image(poses_m: npt.ArrayLike, frame: MetricFrame) -> Trajectory:
+    """Return metric poses in the image frame.
+
+    Parameters
+    ----------
+    poses_m : array_like of shape (S, 3)
+        x, y, m, and heading, rad, counted from +x towards +y, that is to the left;
+        for example the `values` of a `TrajectoryTable` read from a TUM file.
+    frame : MetricFrame
+        Where the drawing lies.
+
+    Returns
+    -------
+    Trajectory
+        Headings in [-pi, pi).
+
+    Raises
+    ------
+    TrajectoryError
+        Where the poses are not finite rows of three.
+    """
+    metric = Trajectory(poses=np.asarray(poses_m))
+    x_m, y_m, yaw = metric.poses.T
+    x_px = (x_m - frame.origin_x_m) / frame.metres_per_px
+    y_px = frame.height_px - (y_m - frame.origin_y_m) / frame.metres_per_px
+    return Trajectory(poses=np.stack([x_px, y_px, wrap_angle(-yaw)], axis=1))
+
+
+def poses_to_metric(trajectory: Trajectory, frame: MetricFrame) -> FloatArray:
+    """Return a trajectory's poses in the metric frame.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        S poses in the image frame.
+    frame : MetricFrame
+        Where the drawing lies.
+
+    Returns
+    -------
+    ndarray of float64, shape (S, 3)
+        x, y, m, and heading, rad, from +x towards +y, in [-pi, pi).
+    """
+    x_px, y_px, theta = trajectory.poses.T
+    x_m = frame.origin_x_m + x_px * frame.metres_per_px
+    y_m = frame.origin_y_m + (frame.height_px - y_px) * frame.metres_per_px
+    return np.stack([x_m, y_m, wrap_angle(-theta)], axis=1)
