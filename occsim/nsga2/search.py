@@ -1,0 +1,307 @@
+"""NSGA-II over prior pairs, as the source searched for the Pareto front.
+
+An approximation of what :func:`occsim.pareto.exact_front` gives exactly.
+
+References
+----------
+.. [1] K. Deb, A. Pratap, S. Agarwal and T. Meyarivan, "A fast and elitist
+   multiobjective genetic algorithm: NSGA-II", IEEE Trans. Evol. Comput. 6(2), 2002.
+.. [2] K. Deb and T. Goel, "Controlled elitist non-dominated sorting genetic algorithms
+   for better convergence", EMO 2001, doi 10.1007/3-540-44719-9_5: the variant in the
+   source's reference [44], MATLAB's gamultiobj.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from occsim._types import BoolArray, FloatArray, Progress
+from occsim.errors import ParameterError
+from occsim.evidence import EvidenceLog
+from occsim.mapping import UpdateRule
+from occsim.metrics import Region, precision_of, recall_of
+from occsim.pareto import ParetoFront, front_of, hypervolume
+from occsim.prior import PRIOR_SCALE
+from occsim.sweep import (
+    Objective,
+    PriorSurface,
+    PriorSweep,
+    interpolate,
+    prior_surface,
+)
+
+ObjectiveFunction = Callable[[FloatArray], FloatArray]
+"""From pairs (N, 2) of p_wall and p_space to precision and recall (N, 2)."""
+
+PARETO_FRACTION = 0.35
+"""Default of the source's tool: share of the population on the best front."""
+
+PENALTY = 1e6
+"""Stands for 1/precision or 1/recall where the score is 0 or undefined: finite, for
+distances between individuals are taken, and worse than one cell in a million."""
+
+
+class Elitism(Enum):
+    """Which individuals survive a generation."""
+
+    FULL = "full"
+    """The best fronts, as many as fit: NSGA-II."""
+    CONTROLLED = "controlled"
+    """Some of every front: the variant of the source's tool."""
+
+
+@dataclass(frozen=True, eq=False)
+class Generation:
+    """The population after one generation.
+
+    Parameters
+    ----------
+    number : int
+        1 for the first population: random pairs and the corners of the box.
+    population : ndarray of float64, shape (N, 2)
+        Columns p_wall and p_space.
+    objectives : ndarray of float64, shape (N, 2)
+        Columns precision and recall; NaN where undefined.
+    hypervolume : float
+        Of the population against the reference point; NaN where none was given.
+    """
+
+    number: int
+    population: FloatArray
+    objectives: FloatArray
+    hypervolume: float
+
+    def front(self) -> ParetoFront:
+        """Return the population's non-dominated pairs."""
+        pairs, scores = self.population, self.objectives
+        return front_of(pairs[:, 0], pairs[:, 1], scores[:, 0], scores[:, 1])
+
+
+def interpolated_objective(sweep: PriorSweep) -> ObjectiveFunction:
+    """Return the source's objective: a sweep, bilinearly interpolated.
+
+    Parameters
+    ----------
+    sweep : PriorSweep
+        Usually 0.1, 0.2, ..., 1 on both axes.
+
+    Returns
+    -------
+    callable
+        Precision and recall of pairs within the sweep's axes.
+    """
+
+    def evaluate(pairs: FloatArray) -> FloatArray:
+        p_wall, p_space = pairs.T
+        scores = [interpolate(sweep, p_wall, p_space, which) for which in Objective]
+        return np.stack(scores, axis=1)
+
+    return evaluate
+
+
+def exact_objective(
+    evidence: EvidenceLog,
+    is_wall: BoolArray,
+    truth: BoolArray,
+    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    region: Region = Region.EXPLORED,
+    scale: float = PRIOR_SCALE,
+) -> ObjectiveFunction:
+    """Return the objective that each pair's own map gives.
+
+    Parameters
+    ----------
+    evidence, is_wall, truth, rule, region, scale
+        As in `prior_surface`.
+
+    Returns
+    -------
+    callable
+        Precision and recall of pairs in (0, 1].
+
+    Raises
+    ------
+    ParameterError
+        Where a shape is not the grid's or the scale lies outside its domain.
+    """
+    surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
+    return surface_objective(surface)
+
+
+def surface_objective(surface: PriorSurface) -> ObjectiveFunction:
+    """Return the exact objective of a known surface; see `exact_objective`."""
+
+    def evaluate(pairs: FloatArray) -> FloatArray:
+        tp, fp = surface.counts(*pairs.T)
+        scores = (precision_of(tp, fp), recall_of(tp, surface.n_wall - tp))
+        return np.stack(scores, axis=1)
+
+    return evaluate
+
+
+def nsga2_generations(
+    objective: ObjectiveFunction,
+    *,
+    pop_size: int = 100,
+    n_gen: int = 100,
+    seed: int,
+    elitism: Elitism = Elitism.FULL,
+    pareto_fraction: float = PARETO_FRACTION,
+    low: float = 0.1,
+    high: float = 1.0,
+    ref: Sequence[float] | None = None,
+) -> Iterator[Generation]:
+    """Yield the population generation by generation; leave the loop to stop.
+
+    Parameters
+    ----------
+    objective : callable
+        From pairs (N, 2) to precision and recall (N, 2), NaN allowed; see
+        `interpolated_objective` and `exact_objective`.
+    pop_size : int, default 100
+        Individuals in a population, 4 to 10,000.
+    n_gen : int, default 100
+        Generations, 1 to 10,000, the first one among them: random pairs and the four
+        corners of the box.
+    seed : int
+        Equal seeds give equal runs.
+    elitism : Elitism, default Elitism.FULL
+        Who survives.
+    pareto_fraction : float, default 0.35
+        With CONTROLLED, share of the population that the best front may fill, in
+        (0, 1). It sets the ratio of shares r = 1 - fraction: over many fronts
+        N_1 = N (1 - r) / (1 - r^K) tends to that share of N.
+    low, high : float, default 0.1 and 1
+        Bounds of both variables, 0 < low < high <= 1.
+    ref : sequence of two floats, optional
+        Reference point of the hypervolume, as 1/precision and 1/recall.
+
+    Yields
+    ------
+    Generation
+
+    Raises
+    ------
+    ParameterError
+        At once where a value lies outside its domain.
+    """
+    for name, count, least in (("pop_size", pop_size, 4), ("n_gen", n_gen, 1)):
+        if not least <= count <= 10_000:
+            raise ParameterError(f"{name} must lie in {least} to 10,000; got {count!r}")
+    if not 0.0 < low < high <= 1.0:
+        raise ParameterError(
+            f"low and high must satisfy 0 < low < high <= 1; got {low!r} and {high!r}"
+        )
+    if not 0.0 < pareto_fraction < 1.0:
+        raise ParameterError(
+            f"pareto_fraction must lie in (0, 1); got {pareto_fraction!r}"
+        )
+    ratio = None if elitism is Elitism.FULL else 1.0 - pareto_fraction
+    algorithm = _algorithm(pop_size, n_gen, seed, ratio, (low, high))
+    return _run(algorithm, objective, ref)
+
+
+def nsga2_front(
+    objective: ObjectiveFunction,
+    *,
+    pop_size: int = 100,
+    n_gen: int = 100,
+    seed: int,
+    elitism: Elitism = Elitism.FULL,
+    pareto_fraction: float = PARETO_FRACTION,
+    low: float = 0.1,
+    high: float = 1.0,
+    on_progress: Progress | None = None,
+) -> ParetoFront:
+    """Return the front of the last population: an approximation.
+
+    Parameters
+    ----------
+    objective, pop_size, n_gen, seed, elitism, pareto_fraction, low, high
+        As in `nsga2_generations`.
+    on_progress : callable, optional
+        Called as ``on_progress(done, total)`` after every generation.
+
+    Returns
+    -------
+    ParetoFront
+        Without rectangles; empty where no pair tried hits a wall.
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+    generations = nsga2_generations(
+        objective,
+        pop_size=pop_size,
+        n_gen=n_gen,
+        seed=seed,
+        elitism=elitism,
+        pareto_fraction=pareto_fraction,
+        low=low,
+        high=high,
+    )
+    for generation in generations:
+        if on_progress is not None:
+            on_progress(generation.number, n_gen)
+    return generation.front()
+
+
+def _algorithm(
+    pop_size: int,
+    n_gen: int,
+    seed: int,
+    ratio: float | None,
+    bounds: tuple[float, float],
+) -> Any:
+    # Importing pymoo takes most of a second: only where an optimisation starts.
+    from pymoo.algorithms.moo.nsga2 import NSGA2
+    from pymoo.core.problem import Problem
+
+    from occsim.nsga2.controlled import ControlledElitism
+
+    survival = {} if ratio is None else {"survival": ControlledElitism(ratio)}
+    first = _first_population(pop_size, seed, bounds)
+    algorithm = NSGA2(pop_size=pop_size, sampling=first, **survival)
+    problem = Problem(n_var=2, n_obj=2, xl=bounds[0], xu=bounds[1])
+    algorithm.setup(problem, termination=("n_gen", n_gen), seed=seed)
+    return algorithm
+
+
+def _first_population(
+    pop_size: int, seed: int, bounds: tuple[float, float]
+) -> FloatArray:
+    # Random, but for the corners of the box: a prior of exactly 0.9 * 1 ties with the
+    # sensor's readings, which no random pair and no small step towards it would find.
+    pairs = np.random.default_rng(seed).uniform(*bounds, (pop_size, 2))
+    pairs[:4] = np.stack(np.meshgrid(bounds, bounds), axis=-1).reshape(4, 2)
+    return pairs
+
+
+def _run(
+    algorithm: Any, objective: ObjectiveFunction, ref: Sequence[float] | None
+) -> Iterator[Generation]:
+    number = 0
+    while algorithm.has_next():
+        offspring = algorithm.ask()
+        if offspring is None or not len(offspring):
+            return  # No new pair is left to try: the box is a few bits wide.
+        pairs = offspring.get("X").astype(np.float64)
+        scores = objective(pairs)
+        offspring.set("F", _minimised(scores), "scores", scores)
+        algorithm.tell(infills=offspring)
+        number += 1
+        population = algorithm.pop.get("X").astype(np.float64)
+        kept = algorithm.pop.get("scores").astype(np.float64)
+        volume = np.nan if ref is None else hypervolume(kept[:, 0], kept[:, 1], ref)
+        yield Generation(number, population, kept, volume)
+
+
+def _minimised(scores: FloatArray) -> FloatArray:
+    # 1/precision and 1/recall, as in the source; 0 and undefined are penalised.
+    positive = scores > 0.0
+    return np.where(positive, 1.0 / np.where(positive, scores, 1.0), PENALTY)
