@@ -196,8 +196,8 @@ def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
 
     first = int(log.reading[entries[0]])
     bar = player.evaluate(
-        "root => root.player.terms.x(1) + "
-        "root.player.terms.canvas.getBoundingClientRect().left"
+        "root => root.player.inspector.terms.x(1) + "
+        "root.player.inspector.terms.canvas.getBoundingClientRect().left"
     )
     box = player.locator("[data-part=terms]").bounding_box()
     page.mouse.click(bar, box["y"] + 20)

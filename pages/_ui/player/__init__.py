@@ -24,7 +24,17 @@ from pages._ui import palette
 from pages._ui.settings import CHOICES, TABLE, Overlay, Settings, with_changes
 
 FOLDER = Path(__file__).parent
-SCRIPTS = ("model.js", "stage.js", "charts.js", "text.js", "player.js")
+SCRIPTS = (
+    "text.js",
+    "model.js",
+    "cells.js",
+    "stage.js",
+    "charts.js",
+    "playback.js",
+    "controls.js",
+    "inspector.js",
+    "player.js",
+)
 COMPONENT = "map_player"
 SPEEDS = (5, 15, 30, 60, 120)
 """Readings per second."""

@@ -5,7 +5,8 @@ function fitted(canvas) {
   const ratio = Math.min(3, window.devicePixelRatio || 1);
   const width = canvas.clientWidth;
   const height = canvas.clientHeight;
-  if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
+  if (canvas.width !== Math.round(width * ratio))
+    canvas.width = Math.round(width * ratio);
   if (canvas.height !== Math.round(height * ratio)) {
     canvas.height = Math.round(height * ratio);
   }
@@ -38,8 +39,15 @@ function drawCurve(canvas, values, step, ink) {
   context.fillStyle = ink.muted;
   context.textBaseline = "middle";
   for (const level of [0, 0.5, 1]) {
-    line(context, left, Math.round(y(level)) + 0.5, width - right, Math.round(y(level)) + 0.5);
-    if (level !== 0.5) context.fillText(`${100 * level} %`, width - right + 5, y(level));
+    line(
+      context,
+      left,
+      Math.round(y(level)) + 0.5,
+      width - right,
+      Math.round(y(level)) + 0.5,
+    );
+    if (level !== 0.5)
+      context.fillText(`${100 * level} %`, width - right + 5, y(level));
   }
   context.lineJoin = "round";
   context.strokeStyle = ink.text;
@@ -142,7 +150,13 @@ class TermsChart {
     for (let v = Math.ceil(low / tick) * tick; v <= high + 1e-9; v += tick) {
       const zero = Math.abs(v) < 1e-9;
       context.strokeStyle = zero ? ink.muted : ink.line;
-      line(context, left, Math.round(y(v)) + 0.5, width - right, Math.round(y(v)) + 0.5);
+      line(
+        context,
+        left,
+        Math.round(y(v)) + 0.5,
+        width - right,
+        Math.round(y(v)) + 0.5,
+      );
       context.fillStyle = ink.muted;
       const text = zero ? "0" : (v > 0 ? "+" : "\u2212") + formatTick(Math.abs(v));
       context.fillText(text, left - 6, y(v));
@@ -202,5 +216,7 @@ class TermsChart {
 }
 
 function formatTick(value) {
-  return value >= 1 || value === 0 ? String(Math.round(value * 10) / 10) : value.toFixed(1);
+  return value >= 1 || value === 0
+    ? String(Math.round(value * 10) / 10)
+    : value.toFixed(1);
 }

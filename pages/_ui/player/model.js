@@ -39,8 +39,22 @@ function decodeReplay(buffer) {
   const { indptr, cell } = expandRuns(runs, gap, length, nEntries);
   const logOdds = Float64Array.from(index, (i) => values[i]);
   return {
-    heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings, rangePx, fovRad,
-    indptr, cell, logOdds, isWall, truth, poses, preview,
+    heightPx,
+    widthPx,
+    cellPx,
+    nRows,
+    nCols,
+    nCells,
+    nReadings,
+    rangePx,
+    fovRad,
+    indptr,
+    cell,
+    logOdds,
+    isWall,
+    truth,
+    poses,
+    preview,
   };
 }
 
@@ -74,7 +88,10 @@ function pFreeOf(logOdds) {
 }
 
 // The four counts, in the order in which the curves store them.
-const TP = 0, FP = 1, FN = 2, TN = 3;
+const TP = 0,
+  FP = 1,
+  FN = 2,
+  TN = 3;
 const countIndex = (declared, wall) => (declared ? (wall ? TP : FP) : wall ? FN : TN);
 
 class MapModel {
@@ -210,8 +227,7 @@ class MapModel {
     const terms = [];
     for (let e = this.last[c]; e >= 0; e = this.previous[e]) {
       const said = this.logOdds[e];
-      const total =
-        this.before[e] + said + this.priorWeight(this.rank[e] + 1) * l0;
+      const total = this.before[e] + said + this.priorWeight(this.rank[e] + 1) * l0;
       const added = this.once ? said : said - l0;
       terms.push({ reading: this.readingOf(e), said, added, total });
     }

@@ -3,23 +3,15 @@
 
 const TWO_PI = 2 * Math.PI;
 const ROBOT_RADIUS = 5; // on the screen, px
-const HATCH_GAP = 5; // on the screen, px
 const PANE_GAP = 16;
 const CAPTION_HEIGHT = 22;
 const COLUMN_GAP = 32;
 const SIDE_MIN = 240; // width of the controls beside the stage, px
 const SIDE_MAX = 380;
 
-function rgbOf(hex) {
-  const n = parseInt(hex.slice(1), 16);
-  return [n >> 16, (n >> 8) & 255, n & 255];
-}
-
-function offscreen(width, height) {
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.max(1, width);
-  canvas.height = Math.max(1, height);
-  return canvas;
+// The picture, or null where the browser cannot read it.
+function decodePreview(bytes) {
+  return createImageBitmap(new Blob([bytes])).catch(() => null);
 }
 
 // Largest scale at which two pictures fit a box, side by side or one above the other.
@@ -42,36 +34,32 @@ class Stage {
     this.element = root.querySelector(".stage");
     this.canvases = { drawing: pane("drawing"), map: pane("map") };
     this.colours = colours;
-    this.overlay = "none";
-    this.allCells = false;
     this.hover = null;
     this.pin = null;
   }
 
-  async show(model) {
-    const preview = await createImageBitmap(new Blob([model.preview])).catch(() => null);
+  show(model, preview) {
     this.model = model;
+    this.hover = null;
     this.preview?.close();
     this.preview = preview;
-    this.cells = offscreen(model.nCols, model.nRows);
-    this.cellsContext = this.cells.getContext("2d");
-    this.image = this.cellsContext.createImageData(model.nCols, model.nRows);
-    this.pixels = new Uint32Array(this.image.data.buffer);
-    this.mask = offscreen(model.nCols, model.nRows);
-    this.hatched = null;
+    this.cells = new CellPicture(model, this.colours);
     this.layout();
   }
 
   // Sizes of the canvases from the room that the page gives.
   layout() {
-    const arrangement = getComputedStyle(this.root).getPropertyValue("--arrangement").trim();
+    const arrangement = getComputedStyle(this.root)
+      .getPropertyValue("--arrangement")
+      .trim();
     const height = this.root.querySelector(".measure").clientHeight;
     const beside = arrangement === "wide" ? SIDE_MIN + COLUMN_GAP : 0;
     const width = this.root.clientWidth - beside;
     const { widthPx, heightPx } = this.model;
-    const fit = arrangement === "narrow"
-      ? { scale: Math.min(width / widthPx, height / heightPx), stacked: true }
-      : arrange({ width, height }, { width: widthPx, height: heightPx });
+    const fit =
+      arrangement === "narrow"
+        ? { scale: Math.min(width / widthPx, height / heightPx), stacked: true }
+        : arrange({ width, height }, { width: widthPx, height: heightPx });
     this.scale = fit.scale;
     this.ratio = Math.min(3, window.devicePixelRatio || 1);
     this.element.dataset.stacked = fit.stacked ? "1" : "0";
@@ -82,7 +70,6 @@ class Stage {
       canvas.width = Math.round(widthPx * this.scale * this.ratio);
       canvas.height = Math.round(heightPx * this.scale * this.ratio);
     }
-    this.hatched = null;
     this.scalePreview();
   }
 
@@ -103,71 +90,6 @@ class Stage {
     context.fillRect(0, 0, width, height);
     context.imageSmoothingQuality = "high";
     if (this.preview) context.drawImage(this.preview, 0, 0, width, height);
-  }
-
-  // ---- colours of cells ----------------------------------------------------------
-
-  packed(hex, share = 1, [r, g, b] = [0, 0, 0]) {
-    const mix = rgbOf(hex).map((v, i) => Math.round(share * v + (1 - share) * [r, g, b][i]));
-    return (255 << 24) | (mix[2] << 16) | (mix[1] << 8) | mix[0];
-  }
-
-  prepareColours() {
-    const { colours } = this;
-    const [dark, light] = [rgbOf(colours.beliefOccupied), rgbOf(colours.beliefFree)];
-    this.grey = new Uint32Array(256);
-    this.tinted = new Uint32Array(256);
-    const tint = this.overlay === "truth" ? colours.groundTruth : colours.wallMask;
-    for (let i = 0; i < 256; i++) {
-      const rgb = dark.map((v, j) => Math.round(v + ((light[j] - v) * i) / 255));
-      this.grey[i] = (255 << 24) | (rgb[2] << 16) | (rgb[1] << 8) | rgb[0];
-      this.tinted[i] = this.packed(tint, 0.55, rgb);
-    }
-    this.verdict = [colours.hit, colours.falseWall, colours.missedWall, colours.free].map(
-      (hex) => this.packed(hex),
-    );
-    this.unseen = this.packed(colours.unseen);
-  }
-
-  beliefColour(c, marked) {
-    const level = Math.round(255 * pFreeOf(this.model.mapLogOdds(c)));
-    return marked && marked[c] ? this.tinted[level] : this.grey[level];
-  }
-
-  errorColour(c) {
-    const { model } = this;
-    if (model.counts[c] === 0 && !this.allCells) return this.unseen;
-    return this.verdict[countIndex(model.isOccupied(c), model.truth[c])];
-  }
-
-  marked() {
-    if (this.overlay === "wall_mask") return this.model.isWall;
-    return this.overlay === "truth" ? this.model.truth : null;
-  }
-
-  paintAll() {
-    this.prepareColours();
-    const errors = this.overlay === "errors";
-    const marked = this.marked();
-    for (let c = 0; c < this.pixels.length; c++) {
-      this.pixels[c] = errors ? this.errorColour(c) : this.beliefColour(c, marked);
-    }
-    this.stale = true;
-  }
-
-  // Recolours only the cells of these entries: what a step of the replay changed.
-  paintEntries([from, to]) {
-    if (to - from > this.pixels.length) {
-      this.paintAll();
-      return;
-    }
-    const errors = this.overlay === "errors";
-    const marked = this.marked();
-    for (let e = from; e < to; e++) {
-      const c = this.model.cell[e];
-      this.pixels[c] = errors ? this.errorColour(c) : this.beliefColour(c, marked);
-    }
-    this.stale = to > from || this.stale;
   }
 
   // ---- drawing -------------------------------------------------------------------
@@ -201,64 +123,12 @@ class Stage {
   }
 
   drawMap() {
-    const { canvases, model } = this;
-    if (this.stale) this.cellsContext.putImageData(this.image, 0, 0);
-    const context = this.begin(canvases.map);
-    context.imageSmoothingEnabled = false;
+    const context = this.begin(this.canvases.map);
     this.toDrawing(context);
-    const [width, height] = [model.nCols * model.cellPx, model.nRows * model.cellPx];
-    context.drawImage(this.cells, 0, 0, width, height);
-    if (this.overlay === "errors") this.drawHatch(context);
-    this.stale = false;
+    this.cells.draw(context, this.ratio);
     this.drawSensor(context, false);
     this.drawRobot(context);
     this.drawMarks(context);
-  }
-
-  drawHatch(context) {
-    if (this.stale || !this.hatched) this.renewHatch();
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.drawImage(this.hatched, 0, 0);
-    this.toDrawing(context);
-  }
-
-  // Hatching on unseen cells: a pattern kept where the cells' mask is opaque.
-  renewHatch() {
-    const { width, height } = this.canvases.map;
-    const { model } = this;
-    const maskContext = this.mask.getContext("2d");
-    const mask = maskContext.createImageData(model.nCols, model.nRows);
-    const alpha = new Uint32Array(mask.data.buffer);
-    for (let c = 0; c < alpha.length; c++) alpha[c] = model.counts[c] ? 0 : 255 << 24;
-    maskContext.putImageData(mask, 0, 0);
-    this.hatched ??= offscreen(width, height);
-    const context = this.hatched.getContext("2d");
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.globalCompositeOperation = "source-over";
-    context.clearRect(0, 0, width, height);
-    context.imageSmoothingEnabled = false;
-    this.toDrawing(context);
-    const side = model.cellPx;
-    context.drawImage(this.mask, 0, 0, model.nCols * side, model.nRows * side);
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.globalCompositeOperation = "source-in";
-    context.fillStyle = this.hatchPattern(context);
-    context.fillRect(0, 0, width, height);
-  }
-
-  hatchPattern(context) {
-    const side = Math.round(HATCH_GAP * this.ratio);
-    const tile = offscreen(side, side);
-    const pen = tile.getContext("2d");
-    pen.strokeStyle = this.colours.unseenHatch;
-    pen.lineWidth = this.ratio * 0.8;
-    pen.beginPath();
-    for (const shift of [-side, 0, side]) {
-      pen.moveTo(shift, side);
-      pen.lineTo(shift + side, 0);
-    }
-    pen.stroke();
-    return context.createPattern(tile, "repeat");
   }
 
   pose(index) {
@@ -394,15 +264,22 @@ class Stage {
   cellHolding(x, y) {
     const { cellPx, nCols, nRows } = this.model;
     const [row, col] = [Math.floor(y / cellPx), Math.floor(x / cellPx)];
-    return row >= 0 && col >= 0 && row < nRows && col < nCols ? row * nCols + col : null;
+    return row >= 0 && col >= 0 && row < nRows && col < nCols
+      ? row * nCols + col
+      : null;
+  }
+
+  // Centre of a cell, px of the drawing.
+  centre(c) {
+    const { x, y, side } = this.cellBox(c);
+    return [x + side / 2, y + side / 2];
   }
 
   // Where a cell's centre is on the map canvas, as a pointer event would say it.
   pointAt(c) {
-    const { x, y, side } = this.cellBox(c);
+    const [x, y] = this.centre(c);
     const box = this.canvases.map.getBoundingClientRect();
-    const clientX = box.left + (x + side / 2) * this.scale;
-    return { clientX, clientY: box.top + (y + side / 2) * this.scale };
+    return { clientX: box.left + x * this.scale, clientY: box.top + y * this.scale };
   }
 
   dispose() {

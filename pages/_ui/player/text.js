@@ -1,5 +1,6 @@
 // Numbers and small pieces of the page. Text from outside enters as text, never as HTML.
 
+const COMMIT_DELAY = 350; // ms; keys held down are one commit
 const DASH = "\u2013";
 const MINUS = "\u2212";
 
@@ -12,18 +13,22 @@ function signed(value, digits) {
   return value >= 0 ? `+${fixed(value, digits)}` : fixed(value, digits);
 }
 
-const percent = (value) => (Number.isNaN(value) ? DASH : `${(100 * value).toFixed(1)} %`);
+const percent = (value) =>
+  Number.isNaN(value) ? DASH : `${(100 * value).toFixed(1)} %`;
 
 // Three decimals, more where a probability would else read as 0 or 1.
 function probability(p) {
   const edge = Math.min(p, 1 - p);
   if (edge >= 0.0005 || edge === 0) return p.toFixed(3);
-  return p < 0.5 ? p.toExponential(1).replace("-", MINUS) : `1 ${MINUS} ${(1 - p).toExponential(1).replace("-", MINUS)}`;
+  return p < 0.5
+    ? p.toExponential(1).replace("-", MINUS)
+    : `1 ${MINUS} ${(1 - p).toExponential(1).replace("-", MINUS)}`;
 }
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes))
+    made.setAttribute(name, value);
   made.append(...children);
   return made;
 }
