@@ -1,10 +1,20 @@
 from dataclasses import fields
+from enum import Enum
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from occsim import BehindHit, Region, UpdateRule
+from occsim.nsga2 import Elitism
+from pages._ui.choices import (
+    Drawings,
+    Fineness,
+    FrontAxes,
+    Objectives,
+    Picture,
+    Surface,
+)
 from pages._ui.settings import (
     CHOICES,
     TABLE,
@@ -35,6 +45,15 @@ ANY_SETTINGS = st.builds(
     rule=st.sampled_from(UpdateRule),
     region=st.sampled_from(Region),
     overlay=st.sampled_from(Overlay),
+    surface=st.sampled_from(Surface),
+    fineness=st.sampled_from(Fineness),
+    drawings=st.sampled_from(Drawings),
+    picture=st.sampled_from(Picture),
+    axes=st.sampled_from(FrontAxes),
+    objectives=st.sampled_from(Objectives),
+    elitism=st.sampled_from(Elitism),
+    **{name: bounded(name) for name in ("min_recall", "tolerance")},
+    **{name: bounded(name) for name in ("pop_size", "n_gen", "seed")},
 )
 
 
@@ -63,5 +82,6 @@ def test_a_value_out_of_bounds_is_refused_with_a_reason(name, value):
 
 def test_every_setting_is_declared_and_every_choice_has_words():
     assert set(TABLE) == {field.name for field in fields(Settings)}
-    for kind in (BehindHit, UpdateRule, Region, Overlay):
+    defaults = [getattr(Settings(), field.name) for field in fields(Settings)]
+    for kind in {type(value) for value in defaults if isinstance(value, Enum)}:
         assert set(kind) <= set(CHOICES)

@@ -13,11 +13,22 @@ from contextlib import contextmanager
 
 import streamlit as st
 
-from occsim import EvidenceLog, Grid, Sensor, collect_evidence, truth_cells
+from occsim import (
+    EvidenceLog,
+    Grid,
+    Sensor,
+    collect_evidence,
+    load_sample,
+    truth_cells,
+)
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.drawing import Drawing
 from occsim.formats.replay import pack_replay
+from occsim.pareto import surface_front
+from occsim.sweep import PriorSweep, prior_surface, sweep_surface
 from occsim.world import wall_cells
+from pages._ui.runs import Run
+from pages._ui.settings import Settings, apart_from_prior, with_changes
 
 # A class of thirty students on two cores: without this each simulation would be slowed
 # by all others, and everyone would wait for the sum.
@@ -94,3 +105,34 @@ def _replay(
             sensor=sensor,
             drawing=_building.drawing,
         )
+
+
+# --- Priors: sweeps and fronts --------------------------------------------------------
+
+
+def run(building: Building, settings: Settings) -> Run:
+    """A building mapped under some settings, ready for any prior."""
+    return _run(building.digest, apart_from_prior(settings), building)
+
+
+@st.cache_resource(max_entries=64, show_spinner=False)
+def _run(digest: str, settings: Settings, _building: Building) -> Run:
+    log = evidence(_building, settings.sensor, settings.cell_px)
+    with core():
+        is_wall = wall_cells(_building.wall_mask, log.grid, settings.wall_share)
+        truth = truth_cells(_building.world, log.grid, settings.truth_share)
+        surface = prior_surface(log, is_wall, truth, settings.rule, settings.region)
+        front = surface_front(surface)
+    return Run(_building, settings, log, is_wall, truth, surface, front)
+
+
+def reference_run(name: str, settings: Settings) -> Run:
+    """A reference drawing under some settings, the range its own door's length."""
+    range_px = round(load_sample(name).sensor.range_px)
+    return run(sample(name), with_changes(settings, {"range_px": range_px}))
+
+
+def sweep(of: Run, values: list[float]) -> PriorSweep:
+    """The exact scores of every pair of some values."""
+    with core():
+        return sweep_surface(of.surface, values, values)

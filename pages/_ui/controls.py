@@ -47,6 +47,46 @@ def radio(name: str) -> None:
     )
 
 
+def segments(name: str) -> None:
+    """Draw the options of a setting that is a choice, side by side."""
+    options: list[Enum] = list(type(getattr(state.settings(), name)))
+    st.segmented_control(
+        TABLE[name].label,
+        options,
+        format_func=CHOICES.__getitem__,
+        help=TABLE[name].help,
+        required=True,
+        **state.bind(name),
+    )
+
+
+def select(name: str, width: int | Literal["stretch"] = "stretch") -> None:
+    """Draw the options of a setting that is a choice, in a list that opens."""
+    options: list[Enum] = list(type(getattr(state.settings(), name)))
+    st.selectbox(
+        TABLE[name].label,
+        options,
+        format_func=CHOICES.__getitem__,
+        help=TABLE[name].help,
+        width=width,
+        **state.bind(name),
+    )
+
+
+def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
+    """Draw the box of a whole number."""
+    setting = TABLE[name]
+    st.number_input(
+        setting.label,
+        int(setting.low),
+        int(setting.high),
+        step=int(setting.step),
+        help=setting.help,
+        width=width,
+        **state.bind(name),
+    )
+
+
 def drawing_choice() -> None:
     """Draw the choice between the reference drawings and the student's own."""
     titles = {name: state.drawing_title(name) for name in state.choices()}

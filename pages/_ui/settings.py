@@ -171,12 +171,12 @@ TABLE: Mapping[str, Setting] = {
     "overlay": Setting(label="Overlay", help="What is drawn over the map."),
     "surface": Setting(
         label="Surface",
-        help="The source scored 10 × 10 pairs and interpolated between them. Exact, "
-        "every pair is scored by its own map.",
+        help="The source scored 10 × 10 pairs and interpolated between them. Exact: "
+        "every pair is scored by its own map. Difference: interpolated less exact.",
     ),
     "fineness": Setting(
-        label="Step of p_wall and p_space",
-        help="Distance between the pairs of the exact surface.",
+        label="Step",
+        help="Distance between the values of p_wall and p_space on the surface.",
     ),
     "drawings": Setting(
         label="Drawings", help="The chosen drawing, or all five reference drawings."
@@ -239,9 +239,9 @@ CHOICES: Mapping[Enum, str] = {
     Overlay.WALL_MASK: "Wall mask",
     Overlay.TRUTH: "Ground truth",
     Overlay.ERRORS: "Errors",
-    Surface.SOURCE: "Source: 10 × 10, interpolated",
+    Surface.SOURCE: "Source's 10 × 10",
     Surface.EXACT: "Exact",
-    Surface.DIFFERENCE: "Interpolated less exact",
+    Surface.DIFFERENCE: "Difference",
     Fineness.TENTH: "0.1",
     Fineness.TWENTIETH: "0.05",
     Fineness.FIFTIETH: "0.02",

@@ -29,6 +29,12 @@ LESSONS = (
         "A robot drives through a building and maps it, reading by reading; the "
         "architect's drawing is what the map starts from.",
     ),
+    Lesson(
+        "pages/5_Sweep_the_priors.py",
+        "Sweep the priors",
+        "Every pair of prior values gives a map, and every map has a precision and a "
+        "recall: here they are, all at once.",
+    ),
 )
 
 # Streamlit leaves 6 rem above the first line and much between blocks; the first

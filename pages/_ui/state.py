@@ -171,6 +171,43 @@ def value(key: str) -> Any:
     return st.session_state.get(key)
 
 
+# --- Prior pairs ----------------------------------------------------------------------
+
+
+def pair() -> tuple[float, float]:
+    """The chosen prior pair: p_wall, p_space."""
+    return settings().p_wall, settings().p_space
+
+
+def choose_pair(p_wall: float, p_space: float) -> None:
+    """Choose a prior pair; every page shows its map."""
+    change(p_wall=p_wall, p_space=p_space, uninformative=False)
+
+
+def bind_chart(key: str) -> dict[str, Any]:
+    """Return what makes a click in a chart choose the prior pair of a point.
+
+    The pair is the point's customdata, or its place in a chart of p_wall over p_space.
+    """
+    return {
+        "key": key,
+        "on_select": lambda: _take_click(key),
+        "selection_mode": "points",
+    }
+
+
+def _take_click(key: str) -> None:
+    clicked = st.session_state.setdefault("clicked", {})
+    points = value(key)["selection"]["points"]
+    if points:
+        point = points[-1]
+        clicked[key] = point.get("customdata") or (point["y"], point["x"])
+    # A second click on a point takes its selection away: it is still the one meant.
+    if key in clicked:
+        p_wall, p_space = clicked[key]
+        choose_pair(p_wall, p_space)
+
+
 # --- The map player -------------------------------------------------------------------
 
 

@@ -1,0 +1,31 @@
+"""Sweep the priors: precision and recall of every pair of prior values."""
+
+import streamlit as st
+
+from pages._ui import compute, controls, shell, state, sweeping
+from pages._ui.choices import Drawings, Surface
+
+lesson = shell.begin("pages/5_Sweep_the_priors.py")
+shell.heading(lesson)
+
+with st.container(horizontal=True, vertical_alignment="bottom"):
+    controls.drawing_choice()
+    controls.slider("cell_px", width=controls.NARROW_PX)
+    controls.segments("surface")
+    if state.settings().surface is not Surface.SOURCE:
+        controls.select("fineness", width=90)
+    controls.segments("drawings")
+    with st.popover("More settings"):
+        for name in ("rule", "region", "behind_hit"):
+            controls.radio(name)
+        for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
+            controls.slider(name)
+
+run = compute.run(state.building(), state.settings())
+if run.notice:
+    st.warning(run.notice)
+if state.settings().drawings is Drawings.ALL:
+    sweeping.all_drawings()
+else:
+    sweeping.one_drawing(run)
+    sweeping.sizes(run)

@@ -1,0 +1,103 @@
+"""A run: one building, mapped once, ready to be asked about any prior pair."""
+
+from dataclasses import dataclass
+
+from occsim import (
+    EvidenceLog,
+    OccupancyMap,
+    Prior,
+    PriorMap,
+    PriorSurface,
+    Scores,
+    fuse,
+    score,
+)
+from occsim._types import BoolArray
+from occsim.building import Building
+from occsim.formats.image_files import png
+from occsim.formats.map_pictures import (
+    OutcomeColours,
+    belief_picture,
+    change_picture,
+    outcome_picture,
+)
+from occsim.pareto import ParetoFront
+from occsim.prior import prior_from_cells
+from pages._ui import palette
+from pages._ui.choices import Picture
+from pages._ui.settings import Settings
+
+ZOOM = 2
+SOURCE_PAIR = (0.2, 0.9)
+OUTCOME_COLOURS = OutcomeColours(
+    hit=palette.HIT,
+    false_wall=palette.FALSE_WALL,
+    missed_wall=palette.MISSED_WALL,
+    free=palette.FREE,
+    unseen=palette.UNSEEN,
+    hatch=palette.UNSEEN_HATCH,
+)
+CHANGE_COLOURS = (palette.EVIDENCE_WALL, palette.EVIDENCE_ZERO, palette.EVIDENCE_FREE)
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """The evidence of a building under some settings, and what follows from it.
+
+    ``settings`` are those without a prior; every prior is an argument here.
+    """
+
+    building: Building
+    settings: Settings
+    evidence: EvidenceLog
+    is_wall: BoolArray
+    truth: BoolArray
+    surface: PriorSurface
+    front: ParetoFront
+
+    def prior_map(self, prior: Prior) -> PriorMap:
+        """What the map starts from."""
+        return prior_from_cells(self.is_wall, self.evidence.grid, prior)
+
+    def map(self, prior: Prior) -> OccupancyMap:
+        """The final map of a prior."""
+        return fuse(self.evidence, self.prior_map(prior), self.settings.rule)
+
+    def scores(self, prior: Prior) -> Scores:
+        """How good that map is."""
+        return score(self.map(prior), self.truth, self.settings.region)
+
+    def picture(self, prior: Prior, kind: Picture) -> bytes:
+        """A PNG of that map."""
+        final, grid = self.map(prior), self.evidence.grid
+        if kind is Picture.ERRORS:
+            region = self.settings.region
+            return png(
+                outcome_picture(final, self.truth, OUTCOME_COLOURS, region, ZOOM)
+            )
+        if kind is Picture.CHANGE:
+            change = final.p_free - self.map(Prior.uninformative()).p_free
+            return png(change_picture(change, grid, CHANGE_COLOURS, zoom=ZOOM))
+        return png(belief_picture(final.p_free, grid, ZOOM))
+
+    @property
+    def notice(self) -> str:
+        """What keeps this run from being scored or swept, in a sentence; else empty."""
+        if not self.evidence.cell.size:
+            return (
+                "No reading saw any cell, so the map is the prior and nothing else: "
+                "check the trajectory and the range of the sensor."
+            )
+        if not self.surface.n_wall:
+            return (
+                "The ground truth has no wall among the scored cells: recall is "
+                "undefined, and no pair of priors is better than another."
+            )
+        if not self.is_wall.any():
+            return (
+                "No wall was found in the drawing: every cell starts from p_space and "
+                "p_wall has no effect."
+            )
+        if not len(self.front):
+            return "No pair of priors finds a wall: precision and recall have no front."
+        return ""
