@@ -106,3 +106,155 @@ def test_a_grid_of_another_size_is_refused():
     grid = Grid(height_px=5, width_px=4, cell_px=2)
     with pytest.raises(ParameterError, match=r"world of \(4, 5\) px; got \(5, 4\) px"):
         collect_evidence(world, trajectory, Sensor(), grid)
+
+
+def dense(evidence):
+    """All readings as an array (S, R, C), NaN where one says nothing."""
+    cells = np.full((evidence.n_readings, evidence.grid.n_cells), np.nan)
+    cells[evidence.reading, evidence.cell] = evidence.log_odds
+    return cells.reshape(-1, *evidence.grid.shape)
+
+
+def room(side=40):
+    """A room with a pillar and a doorway."""
+    occupied = np.zeros((side, side), dtype=bool)
+    occupied[:3] = occupied[-3:] = occupied[:, :3] = occupied[:, -3:] = True
+    occupied[15:21, 22:26] = True
+    occupied[10:16, -3:] = False
+    return World(occupied=occupied)
+
+
+def poses_in(world, n, seed):
+    rng = np.random.default_rng(seed)
+    rows, cols = np.nonzero(~world.occupied)
+    k = rng.integers(0, rows.size, n)
+    x, y = cols[k] + rng.random(n), rows[k] + rng.random(n)
+    return np.stack([x, y, rng.uniform(-np.pi, np.pi, n)], axis=1)
+
+
+@settings(max_examples=60, deadline=None)
+@given(world=worlds(), poses=st.lists(st.tuples(PLACES, PLACES, HEADINGS), min_size=1))
+@pytest.mark.parametrize("behind_hit", BehindHit)
+def test_turning_world_and_poses_turns_the_evidence(behind_hit, world, poses):
+    # Clockwise on the screen, (x, y) goes to (height - y, x), and cells of 1 px too.
+    sensor = Sensor(range_px=8.0, fov_rad=2.0, behind_hit=behind_hit)
+    poses = np.array(poses)
+    x, y, theta = poses.T
+    turned_world = World(occupied=np.rot90(world.occupied, -1))
+    turned = np.stack([world.shape[0] - y, x, theta + np.pi / 2], axis=1)
+    before = collect_evidence(world, Trajectory(poses=poses), sensor, world.grid(1))
+    after = collect_evidence(
+        turned_world, Trajectory(poses=turned), sensor, turned_world.grid(1)
+    )
+    np.testing.assert_allclose(
+        dense(after), np.rot90(dense(before), -1, axes=(1, 2)), atol=1e-12
+    )
+
+
+def test_the_order_of_scans_does_not_matter_for_totals():
+    world, sensor = room(), Sensor(range_px=15.0, fov_rad=1.0)
+    poses = poses_in(world, 50, seed=4)
+    shuffled = poses[np.random.default_rng(0).permutation(50)]
+    logs = [
+        collect_evidence(world, Trajectory(poses=p), sensor, world.grid(3))
+        for p in (poses, shuffled)
+    ]
+    (sums, counts), (sums_2, counts_2) = (log.totals() for log in logs)
+    np.testing.assert_allclose(sums, sums_2, atol=1e-12)
+    np.testing.assert_array_equal(counts, counts_2)
+
+
+def test_batches_change_nothing_and_report_progress(monkeypatch):
+    world, sensor = room(), Sensor(range_px=30.0, fov_rad=6.0)
+    trajectory = Trajectory(poses=poses_in(world, 25, seed=1))
+    whole = collect_evidence(world, trajectory, sensor, world.grid(4))
+    monkeypatch.setattr("occsim.evidence.READINGS_AT_ONCE", 10)
+    monkeypatch.setattr("occsim.rays.outline.PAIRS_AT_ONCE", 50)
+    calls = []
+    parts = collect_evidence(
+        world, trajectory, sensor, world.grid(4), lambda *call: calls.append(call)
+    )
+    assert calls == [(10, 25), (20, 25), (25, 25)]
+    for name in ("indptr", "cell", "log_odds"):
+        np.testing.assert_array_equal(getattr(whole, name), getattr(parts, name))
+
+
+def test_types_and_order_of_the_log():
+    world = room()
+    trajectory = Trajectory(poses=poses_in(world, 9, seed=2))
+    log = collect_evidence(world, trajectory, Sensor(), world.grid(3))
+    assert (log.indptr.dtype, log.cell.dtype) == (np.int64, np.int32)
+    assert log.log_odds.dtype == np.float64
+    assert log.n_readings == 9
+    for a, b in zip(log.indptr[:-1], log.indptr[1:], strict=True):
+        assert (np.diff(log.cell[a:b]) > 0).all()
+
+
+def one_reading(world, pose, cell_px=1, **sensor):
+    trajectory = Trajectory(poses=[pose])
+    return dense(
+        collect_evidence(world, trajectory, Sensor(**sensor), world.grid(cell_px))
+    )[0]
+
+
+@pytest.mark.parametrize("place", [(1.5, 1.5), (1.2, 1.9), (1.0, 1.4)])
+def test_a_robot_inside_wall_sees_only_object(place):
+    # The last place is the edge between two wall pixels: inside the wall too.
+    world = World(occupied=np.array([[0, 0, 0], [1, 1, 0], [0, 0, 0]], dtype=bool))
+    seen = one_reading(world, (*place, 0.3), range_px=9, fov_rad=2 * np.pi)
+    np.testing.assert_allclose(seen, np.full((3, 3), -np.log(9)))
+
+
+def test_a_robot_against_a_wall_sees_the_free_side():
+    # It stands on the left edge of the wall pixel: to the right all is object.
+    world = World(occupied=np.array([[0, 0, 1, 0]], dtype=bool))
+    seen = one_reading(world, (2.0, 0.5, 0.0), range_px=9, fov_rad=2 * np.pi)
+    np.testing.assert_allclose(seen, [np.log([9, 9, 1 / 9, 1 / 9])])
+
+
+def test_a_robot_outside_the_drawing_sees_its_walls():
+    world = World(occupied=np.array([[0, 1, 0, 0]], dtype=bool))
+    seen = one_reading(world, (-1.5, 0.5, 0.0), range_px=4.5, fov_rad=1.0)
+    np.testing.assert_allclose(seen, [[np.log(9), -np.log(9), -np.log(9), np.nan]])
+
+
+def test_the_own_pixel_is_seen_whatever_the_heading_and_its_width():
+    world = World(occupied=np.zeros((3, 3), dtype=bool))
+    for theta in (0.0, 1.0, np.pi / 2, 4.0):
+        seen = one_reading(world, (1.5, 1.5, theta), range_px=0.4, fov_rad=1e-6)
+        np.testing.assert_allclose(seen[1, 1], np.log(9))
+        assert np.isnan(seen).sum() == 8
+
+
+@pytest.mark.parametrize("x", [1e9, -1e18, 1e300])
+@pytest.mark.parametrize("range_px", [20.0, 1e300])
+def test_a_robot_beyond_all_bounds_harms_nothing(x, range_px):
+    world = room()
+    near = poses_in(world, 1, seed=0)[0]
+    log = collect_evidence(
+        world,
+        Trajectory(poses=[near, (x, 5.0, 0.0), (5.0, x, 0.0)]),
+        Sensor(range_px=range_px, fov_rad=1.0),
+        world.grid(3),
+    )
+    assert log.indptr[1] > 0
+    np.testing.assert_array_equal(log.indptr[1:], log.indptr[1])
+
+
+def test_a_reading_that_sees_nothing_is_an_empty_entry():
+    world = World(occupied=np.zeros((5, 5), dtype=bool))
+    log = collect_evidence(
+        world,
+        Trajectory(poses=[(2.2, 2.2, 0.0)]),
+        Sensor(clear_no_hit=False),
+        world.grid(2),
+    )
+    np.testing.assert_array_equal(log.indptr, [0, 0])
+    assert (log.totals()[1] == 0).all()
+
+
+def test_cells_wider_than_the_world_are_one_cell():
+    world = room()
+    seen = one_reading(world, (9.5, 9.5, 0.0), cell_px=100, fov_rad=2.0)
+    assert seen.shape == (1, 1)
+    assert 0 < seen.item() <= np.log(9)

@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from occsim import ParameterError, Sensor
+from occsim.sensor import inverse_sensor_model
+
+
+@pytest.mark.parametrize(
+    ("n_empty", "n_object", "odds"),
+    [
+        (9, 0, 9),  # entirely empty: 0.9
+        (0, 9, 1 / 9),  # entirely object: 0.1
+        (1, 1, 1),  # half: 0.5
+        (3, 1, 3),  # the empty share: 0.75
+        (1, 3, 1 / 3),
+        (99, 1, 9),  # clipped to 0.9: must not count for more than entirely empty
+        (1, 99, 1 / 9),
+        (1, 0, 9),  # one pixel in view decides its cell
+    ],
+)
+def test_log_odds_of_a_cell_by_its_pixels(n_empty, n_object, odds):
+    np.testing.assert_allclose(
+        inverse_sensor_model(n_empty, n_object), np.log(odds), atol=1e-12
+    )
+
+
+def test_arrays_keep_their_shape_and_are_not_written_to():
+    n_empty = np.array([[4, 0, 2]], dtype=np.int32)
+    n_object = np.array([[0, 4, 2]], dtype=np.int32)
+    before = n_empty.copy(), n_object.copy()
+    result = inverse_sensor_model(n_empty, n_object)
+    np.testing.assert_allclose(result, [[np.log(9), -np.log(9), 0]], atol=1e-12)
+    np.testing.assert_array_equal(n_empty, before[0])
+    np.testing.assert_array_equal(n_object, before[1])
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
+def test_the_range_is_positive_and_finite(value):
+    with pytest.raises(ParameterError, match="range_px must be above 0 and finite"):
+        Sensor(range_px=value)
+
+
+@pytest.mark.parametrize("value", [0.0, -0.1, 6.3, np.nan])
+def test_the_field_of_view_is_at_most_a_full_turn(value):
+    with pytest.raises(ParameterError, match=r"fov_rad must lie in \(0, 2 pi\]; got"):
+        Sensor(fov_rad=value)
+
+
+def test_a_full_turn_given_in_degrees_is_accepted():
+    assert Sensor(fov_rad=np.radians(360.0)).fov_rad == pytest.approx(2 * np.pi)
+
+
+def test_what_lies_behind_a_hit_is_a_choice_not_a_string():
+    with pytest.raises(ParameterError, match="behind_hit must be a BehindHit"):
+        Sensor(behind_hit="occupied")
