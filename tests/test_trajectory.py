@@ -2,6 +2,7 @@
 
 import io
 import json
+import struct
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from occsim.trajectory_files import (
     load_trajectory,
     read_trajectory_table,
 )
-from occsim.trajectory_files.arrays import MAX_INFLATED_BYTES
+from occsim.trajectory_files.mat import MAX_INFLATED_BYTES
 from occsim.world import World
 
 TWO = [[1.5, 2.5, 0.5], [3.0, 4.25, -1.25]]
@@ -311,6 +312,30 @@ def test_matlab_array_of_any_name_is_read(compressed):
     np.testing.assert_allclose(load_trajectory(degrees).poses, TWO_DEG_IN_RAD)
 
 
+@pytest.mark.parametrize("dtype", ["f8", "f4", "i1", "u1", "i2", "u2", "i4", "i8"])
+@pytest.mark.parametrize("options", [{}, {"do_compression": True}, {"format": "4"}])
+def test_matlab_numbers_of_every_type_are_read_as_scipy_reads_them(dtype, options):
+    whole = np.arange(12).reshape(4, 3).astype(dtype)
+    others = {} if "format" in options else {"cell": np.array(["b"], object)}
+    data = mat(others | {"way": whole}, **options)
+    expected = scipy.io.loadmat(io.BytesIO(data))["way"]
+    loaded = read_trajectory_table(data, name="way.mat").values
+    assert loaded.dtype == np.float64
+    np.testing.assert_array_equal(loaded, expected)
+
+
+def test_big_endian_matlab_file_is_read():
+    """Written out by hand after MathWorks' description of the format."""
+    values = np.array(TWO).T.astype(">f8").tobytes()  # column by column
+    body = struct.pack(">IIII", 6, 8, 6, 0)  # flags: class 6, double
+    body += struct.pack(">IIii", 5, 8, 2, 3)  # dimensions 2 x 3
+    body += struct.pack(">HH4s", 1, 1, b"R")  # the name, a small element
+    body += struct.pack(">II", 9, len(values)) + values
+    header = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x01\x00MI"
+    data = header + struct.pack(">II", 14, len(body)) + body
+    assert load_trajectory(data).poses.tolist() == TWO
+
+
 BAD_FILES = [
     (b"", "empty"),
     (b"\n\n# nothing\n", "no poses"),
@@ -354,11 +379,11 @@ BAD_FILES = [
     (b"\x93NUMPY\x01\x00", "header of .* is damaged"),
     (b"\x93NUMPY\x01\x00\x06\x00(((((\n", "header of .* is damaged"),
     (b"\x89HDF\r\n\x1a\n" + bytes(99), "MATLAB 7.3"),
-    (mat({"a": np.ones((4, 2))}), r"must hold one array .* got a \(4, 2\)"),
+    (mat({"a": np.ones((4, 2))}), r"must hold one real matrix .* got a \(4, 2\)"),
     (mat({"a": np.ones((2, 3)), "b": np.ones((2, 3))}), "or one called trajectory"),
-    (mat({"a": np.array([["abc"]])}), "must hold one array"),
+    (mat({"a": np.array([["abc"]])}), "must hold one real matrix"),
     (mat({"a": np.ones((2, 3))})[:180], "damaged"),
-    (mat({"a": np.ones((2, 3)) * 1j}), "real numbers"),
+    (mat({"a": np.ones((2, 3)) * 1j}), "must hold one real matrix"),
 ]
 
 

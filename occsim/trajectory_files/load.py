@@ -5,14 +5,12 @@ from pathlib import Path
 from occsim.drawing.source import read_source
 from occsim.errors import TrajectoryError
 from occsim.trajectory import Trajectory
-from occsim.trajectory_files.arrays import (
+from occsim.trajectory_files.arrays import NPY_MARK, parse_json, parse_npy
+from occsim.trajectory_files.mat import (
     HDF5_MARK,
     MATLAB_5_MARK,
     MATLAB_73_MARK,
-    NPY_MARK,
-    parse_json,
     parse_mat,
-    parse_npy,
 )
 from occsim.trajectory_files.table import MAX_FILE_BYTES, TrajectoryTable
 from occsim.trajectory_files.text import parse_text

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -216,3 +217,31 @@ def check_count(n_poses: int, name: str) -> None:
         raise TrajectoryError(
             f"{name} has {n_poses:,} poses; at most {MAX_POSES:,} are allowed"
         )
+
+
+def check_array(shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> None:
+    """Refuse an array that is no table of poses, by its header alone.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        The array's.
+    dtype : numpy.dtype
+        Of its elements.
+    name : str
+        What to call the file.
+
+    Raises
+    ------
+    TrajectoryError
+    """
+    if len(shape) != 2 or shape[1] != 3:
+        raise TrajectoryError(
+            f"the array in {name} must have shape (S, 3), rows of x, y, theta; "
+            f"got {tuple(shape)}"
+        )
+    if dtype.kind not in "iuf":
+        raise TrajectoryError(
+            f"the array in {name} must hold real numbers; got {dtype}"
+        )
+    check_count(shape[0], name)
