@@ -82,13 +82,15 @@ def _pixels(image: Image.Image, name: str) -> ByteArray:
     """Decode to uint8 of shape (H, W, 3), upright and opaque."""
     try:
         image.load()
-        upright = ImageOps.exif_transpose(image)
-        if upright.mode.startswith(("I", "F")):
-            gray = _eight_bits(np.asarray(upright))
+        ImageOps.exif_transpose(image, in_place=True)
+        if image.mode.startswith(("I", "F")):
+            gray = _eight_bits(np.asarray(image))
             return np.repeat(gray[:, :, None], 3, axis=2)
-        if upright.has_transparency_data:
-            upright = _on_white(upright)
-        return np.array(upright.convert("RGB"), dtype=np.uint8)
+        if image.has_transparency_data:
+            image = _on_white(image)
+        # Large images: no copy that is not needed.
+        opaque = image if image.mode == "RGB" else image.convert("RGB")
+        return np.asarray(opaque, dtype=np.uint8)
     except Exception as error:  # damaged pixels end in errors of many types
         raise _damaged(name, error) from None
 
