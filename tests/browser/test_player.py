@@ -282,3 +282,15 @@ def test_a_telephone_shows_everything_in_one_column(page, app_url):
     for button in player.locator(".transport button, .transport select").all():
         box = button.bounding_box()
         assert min(box["width"], box["height"]) >= 44
+
+
+def test_a_hidden_player_waits_and_comes_back_whole(page, app_url):
+    """A page that is left has no width for a moment: nothing can be drawn on it."""
+    player = open_player(page, app_url)
+    player.get_by_role("button", name="Play").click()
+    before = player.locator("[data-pane=map] canvas").bounding_box()
+    player.evaluate("root => { root.style.display = 'none'; }")
+    wait_until(page, player, "root => root.player.stage.scale === 0")
+    player.evaluate("root => { root.style.display = ''; }")
+    wait_until(page, player, "root => root.player.stage.scale > 0")
+    assert player.locator("[data-pane=map] canvas").bounding_box() == before

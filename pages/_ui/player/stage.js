@@ -60,7 +60,7 @@ class Stage {
       arrangement === "narrow"
         ? { scale: Math.min(width / widthPx, height / heightPx), stacked: true }
         : arrange({ width, height }, { width: widthPx, height: heightPx });
-    this.scale = fit.scale;
+    this.scale = Math.max(0, fit.scale); // nothing fits while the page is hidden
     this.ratio = Math.min(3, window.devicePixelRatio || 1);
     this.element.dataset.stacked = fit.stacked ? "1" : "0";
     this.giveRestToControls(width, fit);
@@ -95,7 +95,7 @@ class Stage {
   // ---- drawing -------------------------------------------------------------------
 
   draw() {
-    if (!this.model) return;
+    if (!this.model || this.scale === 0) return;
     this.drawDrawing();
     this.drawMap();
   }
