@@ -8,7 +8,7 @@ to, so all sessions share one copy of them (``cache_resource``).
 
 import os
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import streamlit as st
@@ -23,9 +23,18 @@ from occsim import (
 )
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.drawing import Drawing
+from occsim.formats.image_files import drawing_png, png
 from occsim.formats.replay import pack_replay
+from occsim.imageops import estimate_tilt
 from occsim.pareto import surface_front
 from occsim.sweep import PriorSweep, prior_surface, sweep_surface
+from occsim.walls import (
+    MaskComparison,
+    WallDetection,
+    WallParams,
+    compare_masks,
+    detect_walls,
+)
 from occsim.world import wall_cells
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, apart_from_prior, with_changes
@@ -49,10 +58,10 @@ def sample(name: str) -> Building:
         return building_from_sample(name)
 
 
-def own_building(drawing: Drawing, sensor: Sensor) -> Building:
+def own_building(drawing: Drawing, sensor: Sensor, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
     with core():
-        return building_from_drawing(drawing, sensor)
+        return building_from_drawing(drawing, sensor, working_px=working_px)
 
 
 def grid_of(building: Building, cell_px: int) -> Grid:
@@ -136,3 +145,72 @@ def sweep(of: Run, values: list[float]) -> PriorSweep:
     """The exact scores of every pair of some values."""
     with core():
         return sweep_surface(of.surface, values, values)
+
+
+# --- Your building: walls and pictures ------------------------------------------------
+
+
+def detection(drawing: Drawing, params: WallParams) -> WallDetection:
+    """The walls found in a drawing, with the picture of each stage."""
+    return _detection(drawing.digest, params, drawing)
+
+
+@st.cache_resource(max_entries=8, show_spinner="Looking for walls")
+def _detection(digest: str, params: WallParams, _drawing: Drawing) -> WallDetection:
+    with core():
+        return detect_walls(_drawing, params)
+
+
+def stage_pictures(drawing: Drawing, params: WallParams) -> list[tuple[str, bytes]]:
+    """The stages of wall detection: title and PNG."""
+    return _stage_pictures(drawing.digest, params, drawing)
+
+
+@st.cache_data(max_entries=16, show_spinner=False)
+def _stage_pictures(
+    digest: str, params: WallParams, _drawing: Drawing
+) -> list[tuple[str, bytes]]:
+    stages = detection(_drawing, params).stages
+    with core():
+        return [(title, png(image)) for title, image in stages]
+
+
+def backdrop(drawing: Drawing) -> bytes:
+    """A drawing as PNG, to draw on."""
+    return _backdrop(drawing.digest, drawing)
+
+
+@st.cache_data(max_entries=16, show_spinner=False)
+def _backdrop(digest: str, _drawing: Drawing) -> bytes:
+    with core():
+        return drawing_png(_drawing)
+
+
+def reshaped(
+    change: Callable[..., Building], building: Building, *args: float
+) -> Building:
+    """A building with its drawing cropped or turned; kept in the session."""
+    with core():
+        return change(building, *args)
+
+
+def tilt(drawing: Drawing) -> float | None:
+    """By how much a drawing is turned, rad; None where that is not clear."""
+    return _tilt(drawing.digest, drawing)
+
+
+@st.cache_data(max_entries=64, show_spinner=False)
+def _tilt(digest: str, _drawing: Drawing) -> float | None:
+    with core():
+        return estimate_tilt(_drawing)
+
+
+def comparison(building: Building) -> MaskComparison:
+    """How far the wall mask agrees with the world, by pixels."""
+    return _comparison(building.digest, building)
+
+
+@st.cache_resource(max_entries=16, show_spinner=False)
+def _comparison(digest: str, _building: Building) -> MaskComparison:
+    with core():
+        return compare_masks(_building.wall_mask, _building.world.occupied)

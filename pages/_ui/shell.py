@@ -30,6 +30,12 @@ LESSONS = (
         "architect's drawing is what the map starts from.",
     ),
     Lesson(
+        "pages/2_Your_building.py",
+        "Your building",
+        "Bring a drawing: find its walls, correct them by hand, say what is true, and "
+        "sketch the way of the robot.",
+    ),
+    Lesson(
         "pages/5_Sweep_the_priors.py",
         "Sweep the priors",
         "Every pair of prior values gives a map, and every map has a precision and a "

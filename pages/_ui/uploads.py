@@ -3,82 +3,137 @@
 Every upload is checked before anything is kept; what is refused changes nothing.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import streamlit as st
 
 from occsim import Trajectory, load_drawing, load_trajectory
-from occsim.building import CorrectedMask
+from occsim.building import truth_from_image
+from occsim.drawing import Drawing, is_pdf, load_pdf_page, pdf_page_count
 from occsim.tour import default_tour
-from occsim.world import world_from_image
 from pages._ui import compute, state
 
-IMAGE_TYPES = ["png", "jpg", "jpeg", "pgm", "bmp", "tif", "tiff", "webp"]
-TRAJECTORY_TYPES = ["csv", "txt"]
+IMAGE_TYPES = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif", "pgm", "pdf"]
+TRAJECTORY_TYPES = ["csv", "txt", "npy", "mat", "json", "tum"]
 MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
+WORKING, WORKING_PX = "working_px", 1500
+PAGE = "pdf_page"
 
 
 def panel() -> None:
     """Draw the three uploads and what they need to be told."""
-    _uploader("Drawing", "own_drawing", IMAGE_TYPES, _take_drawing)
+    drawing("own_drawing")
     st.caption(
-        "PNG or JPEG, up to 40 megapixels. Walls are detected and a tour of the free "
-        "space is planned, so that the drawing can be mapped at once."
+        "Walls are detected and a tour of the free space is planned, so that the "
+        "drawing can be mapped at once."
     )
-    _uploader("Ground truth", "own_truth", IMAGE_TYPES, _take_truth)
-    st.caption(
-        "An image of the same size: black is wall, white is free. Without one the "
-        "detected walls serve as the world."
+    truth("own_truth")
+    trajectory("own_trajectory")
+
+
+def drawing(key: str) -> None:
+    """Draw the upload of a drawing."""
+    file = _uploader(
+        "Drawing", key, IMAGE_TYPES, _map_drawing, "Image or PDF, up to 40 megapixels."
     )
-    _uploader("Trajectory", "own_trajectory", TRAJECTORY_TYPES, _take_trajectory)
+    n_pages = state.view("pdf_pages", 0)
+    if file is not None and n_pages > 1:
+        st.number_input(
+            f"Page (of {n_pages})",
+            1,
+            n_pages,
+            **state.bind_view(PAGE, 1, partial(_map_page, key)),
+        )
+
+
+def truth(key: str) -> None:
+    """Draw the upload of a ground truth."""
+    _uploader(
+        "Ground truth",
+        key,
+        IMAGE_TYPES,
+        _use_truth,
+        "An image of the drawing's size: black is wall, white is free. Without one the "
+        "wall mask serves as the world.",
+    )
+
+
+def trajectory(key: str) -> None:
+    """Draw the upload of a trajectory, and ask for the unit of its angles."""
+    _uploader(
+        "Trajectory",
+        key,
+        TRAJECTORY_TYPES,
+        _use_trajectory,
+        "CSV, text, NPY, MAT, JSON or TUM: x, y, theta in each row, x and y in pixels.",
+    )
     st.radio(
         "Angles in the file",
         list(UNITS),
-        key="own_unit",
         horizontal=True,
-        on_change=_take_trajectory,
-    )
-    st.caption("CSV or plain text with x, y, theta in each row; x and y in pixels.")
-
-
-def _uploader(label: str, key: str, types: list[str], take: Any) -> None:
-    st.file_uploader(
-        label, types, key=key, on_change=take, max_upload_size=MAX_UPLOAD_MB
+        **state.bind_view("angle_unit", "As the file says", partial(_again, key)),
     )
 
 
-def _take_drawing() -> None:
-    file = state.value("own_drawing")
+def _uploader(
+    label: str, key: str, types: list[str], use: Callable[[Any], None], about: str
+) -> Any:
+    return st.file_uploader(
+        label,
+        types,
+        key=key,
+        help=about,
+        on_change=_take,
+        args=(key, use),
+        max_upload_size=MAX_UPLOAD_MB,
+    )
+
+
+def _take(key: str, use: Callable[[Any], None]) -> None:
+    """Use the file that was put into an uploader, if one is there."""
+    file = state.value(key)
     if file is not None:
-        state.attempt(lambda: _map_drawing(file))
+        state.edit(partial(use, file))
 
 
 def _map_drawing(file: Any) -> None:
-    drawing = load_drawing(file.getvalue(), name=file.name)
-    state.set_own(compute.own_building(drawing, state.settings().sensor))
+    state.set_view(PAGE, 1)
+    data = file.getvalue()
+    state.set_view("pdf_pages", pdf_page_count(data) if is_pdf(data) else 0)
+    _map(load_drawing(data, name=file.name))
 
 
-def _take_truth() -> None:
-    file = state.value("own_truth")
+def _map_page(key: str) -> None:
+    file = state.value(key)
     if file is not None:
-        state.attempt(lambda: _use_truth(file))
+        page = int(state.view(PAGE, 1))
+        _map(load_pdf_page(file.getvalue(), page, name=file.name))
+
+
+def _map(loaded: Drawing) -> None:
+    working_px = int(state.view(WORKING, WORKING_PX))
+    sensor = state.settings().sensor
+    state.set_own(compute.own_building(loaded, sensor, working_px))
 
 
 def _use_truth(file: Any) -> None:
-    drawing = load_drawing(file.getvalue(), name=file.name)
-    world = world_from_image(drawing)
-    state.edit_building(truth=CorrectedMask(world.occupied))
+    image = load_drawing(file.getvalue(), name=file.name)
+    shape = state.building().drawing.shape
+    state.edit_building(truth=truth_from_image(image, shape))
 
 
-def _take_trajectory() -> None:
-    file = state.value("own_trajectory")
+def _again(key: str) -> None:
+    """Read the trajectory's file again, its angles in another unit."""
+    file = state.value(key)
     if file is not None:
-        state.attempt(lambda: _use_trajectory(file))
+        _use_trajectory(file)
 
 
 def _use_trajectory(file: Any) -> None:
-    unit = UNITS[state.value("own_unit")]
+    unit = UNITS[state.view("angle_unit", "As the file says")]
     state.edit_building(
         trajectory=load_trajectory(file.getvalue(), name=file.name, degrees=unit)
     )
@@ -95,7 +150,7 @@ def pose_notice() -> None:
             f"{building.n_outside} of {len(building.trajectory)} poses lie outside the "
             f"drawing and {building.n_inside_walls} stand in walls."
         )
-        st.button("Drop them", on_click=state.attempt, args=(_drop_poses,))
+        st.button("Drop them", on_click=state.edit, args=(_drop_poses,))
 
 
 def _drop_poses() -> None:

@@ -1,0 +1,37 @@
+"""Your building: from a drawing of one's own to everything that a map needs."""
+
+import streamlit as st
+
+from pages._ui import controls, shell, state, uploads
+from pages._ui.workshop import drawing, keep, masks, scale, trajectory, walls
+
+SECTIONS = {
+    "1 Drawing": drawing.show,
+    "2 Scale": scale.show,
+    "3 Walls": walls.show,
+    "4 Corrections": masks.correct,
+    "5 Ground truth": masks.truth,
+    "6 Trajectory": trajectory.show,
+    "7 Keep": keep.show,
+}
+
+lesson = shell.begin("pages/2_Your_building.py")
+shell.heading(lesson)
+
+with st.container(horizontal=True, vertical_alignment="bottom"):
+    controls.drawing_choice()
+    section = st.segmented_control(
+        "Section",
+        list(SECTIONS),
+        required=True,
+        **state.bind_view("section", "1 Drawing"),
+    )
+    st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
+
+notices = st.container()
+SECTIONS[section]()
+with notices:
+    # At the end, so that they speak of what the section has just changed.
+    if state.message():
+        st.error(state.message())
+    uploads.pose_notice()

@@ -1,0 +1,1 @@
+"""The page "Your building": one module for each of its sections."""

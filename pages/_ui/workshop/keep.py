@@ -1,0 +1,56 @@
+"""Section 7: the project file, to keep everything and to open it again."""
+
+from functools import partial
+from typing import Any
+
+import streamlit as st
+
+from occsim.formats.project import Project, dump_project, load_project
+from pages._ui import state
+from pages._ui.settings import encode
+from pages._ui.uploads import MAX_UPLOAD_MB
+
+KEY = "workshop_project"
+
+
+def show() -> None:
+    """Download and open project files."""
+    left, right = st.columns(2, gap="large")
+    with left:
+        st.markdown(
+            "**Keep.** One file with the drawing, the masks and their corrections, the "
+            "ground truth, the trajectory, the scale and all settings. What is here "
+            "lasts as long as this browser tab is open; the file lasts longer."
+        )
+        project = Project(building=state.building(), settings=encode(state.settings()))
+        st.download_button(
+            "Download the project",
+            partial(dump_project, project),
+            file_name="building.occsim.zip",
+            mime="application/zip",
+            on_click="ignore",
+            type="primary",
+        )
+    with right:
+        st.markdown(
+            "**Open.** A project replaces the building that is here; Undo brings it "
+            "back. A damaged file is refused and changes nothing."
+        )
+        st.file_uploader(
+            "Project file",
+            ["zip"],
+            key=KEY,
+            on_change=_open,
+            max_upload_size=MAX_UPLOAD_MB,
+        )
+
+
+def _open() -> None:
+    file = state.value(KEY)
+    if file is not None:
+        state.edit(partial(_take, file))
+
+
+def _take(file: Any) -> None:
+    project = load_project(file.getvalue(), name=file.name)
+    state.open_project(project.building, project.settings)

@@ -1,0 +1,138 @@
+"""Sections 4 and 5: walls corrected by hand, and the ground truth."""
+
+from typing import Any
+
+import streamlit as st
+
+from occsim.building import CorrectedMask, empty_mask
+from occsim.formats.image_files import class_png, mask_png
+from occsim.walls import MaskError
+from pages._ui import compute, palette, state, uploads
+from pages._ui.workshop import drawn, words
+
+ERROR_COLOURS = {
+    MaskError.FREE: palette.FREE,
+    MaskError.HIT: palette.HIT,
+    MaskError.FALSE_WALL: palette.FALSE_WALL,
+    MaskError.MISSED_WALL: palette.MISSED_WALL,
+}
+
+
+def correct() -> None:
+    """Correct the wall mask with brush, line, rectangle and eraser."""
+    left, right = st.columns([4, 1])
+    with left:
+        drawn.mask_board("board_walls", "walls")
+    with right:
+        st.markdown(
+            "**See** what the detection took for wall, tinted. **Try** erasing a "
+            "bath tub and closing a broken wall. **Why:** the prior is made of "
+            "this mask, and of nothing else."
+        )
+        strokes = state.building().walls.strokes
+        st.caption(words.count(len(strokes), "correction"))
+        st.button(
+            "Discard all corrections",
+            on_click=state.edit,
+            args=(_discard,),
+            disabled=not strokes,
+            width="stretch",
+        )
+        agreement()
+        _download(state.building().wall_mask, "walls.png", "Wall mask (PNG)")
+
+
+def _discard() -> None:
+    state.edit_building(walls=CorrectedMask(state.building().walls.base))
+
+
+def agreement() -> None:
+    """Say how far the wall mask agrees with the ground truth."""
+    building = state.building()
+    if building.truth is None:
+        st.caption("No ground truth yet, so there is nothing to compare with.")
+        return
+    compared = compute.comparison(building)
+    st.markdown(
+        f"Precision **{words.percent(compared.precision)}**  \n"
+        f"Recall **{words.percent(compared.recall)}**  \n"
+        f"IoU **{words.percent(compared.iou)}**"
+    )
+    st.caption("Pixels of the mask against the ground truth, within 2 px.")
+
+
+def error_picture() -> bytes:
+    """Where the wall mask errs."""
+    return class_png(
+        compute.comparison(state.building()).errors,
+        [ERROR_COLOURS[error] for error in sorted(MaskError)],
+    )
+
+
+def truth() -> None:
+    """Make the ground truth from the mask or from nothing, or take an image."""
+    left, right = st.columns([4, 1])
+    has_truth = state.building().truth is not None
+    with left:
+        if has_truth:
+            drawn.mask_board("board_truth", "truth")
+        else:
+            with st.container(height=drawn.HEIGHT_PX, border=True):
+                st.image(
+                    mask_png(state.building().wall_mask),
+                    caption="Without a ground truth the wall mask serves as the world.",
+                )
+    with right:
+        _words_of_truth(has_truth)
+        for label, make in (
+            ("Start from the wall mask", _from_walls),
+            ("Start from nothing", _from_nothing),
+        ):
+            st.button(label, on_click=state.edit, args=(make,), width="stretch")
+        if has_truth:
+            st.button(
+                "Map without ground truth",
+                on_click=state.edit,
+                args=(_without,),
+                width="stretch",
+            )
+        uploads.truth("workshop_truth")
+        if has_truth:
+            mask: Any = state.building().truth
+            _download(mask.mask, "ground_truth.png", "Ground truth (PNG)")
+
+
+def _words_of_truth(has_truth: bool) -> None:
+    if has_truth:
+        st.markdown(
+            "The robot sees **these** walls, whatever the drawing says. Structure "
+            "only: no furniture, no text, doors open."
+        )
+    else:
+        st.markdown(
+            "The sensor sees the wall mask itself, so the prior is right everywhere "
+            "and the map has nothing to correct."
+        )
+
+
+def _from_walls() -> None:
+    state.edit_building(truth=CorrectedMask(state.building().wall_mask))
+
+
+def _from_nothing() -> None:
+    state.edit_building(truth=empty_mask(state.building().drawing))
+
+
+def _without() -> None:
+    state.edit_building(truth=None)
+
+
+def _download(mask: Any, name: str, label: str) -> None:
+    st.download_button(
+        label,
+        lambda: mask_png(mask),
+        file_name=name,
+        mime="image/png",
+        on_click="ignore",
+        width="stretch",
+    )

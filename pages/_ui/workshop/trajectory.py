@@ -1,0 +1,211 @@
+"""Section 6: the trajectory, sketched, planned, edited or from a file."""
+
+from functools import partial
+
+import streamlit as st
+
+from occsim import HeadingMode, Trajectory, TrajectoryFormat, dump_trajectory
+from occsim.building import random_trajectory, sketched_trajectory
+from occsim.formats.pose_table import pose_columns, trajectory_from_columns
+from occsim.strokes import pack_mask
+from occsim.tour import coverage_tour, default_tour
+from pages._ui import state, uploads
+from pages._ui.board import BoardMode, BoardPoint
+from pages._ui.workshop import drawn, words
+from pages._ui.workshop.poses import poses_figure
+
+KEY = "board_path"
+WAYS = ("Sketch", "Plan", "Table", "Files")
+HEADINGS = {
+    HeadingMode.ALONG: "Along the way",
+    HeadingMode.CARDINAL: "Nearest of four",
+    HeadingMode.FOUR: "All four",
+}
+UNITS = {True: "Degrees", False: "Radians"}
+
+
+def show() -> None:
+    """Show the way that was chosen to make a trajectory."""
+    left, right = st.columns([3, 1])
+    with right:
+        way = st.segmented_control(
+            "Trajectory by",
+            WAYS,
+            required=True,
+            label_visibility="collapsed",
+            **state.bind_view("way", WAYS[0]),
+        )
+        {"Sketch": _sketch, "Plan": _plan, "Table": _table, "Files": _files}[way]()
+        _facts()
+    with left:
+        if way == "Sketch" and not state.view("show_poses", False):
+            _board()
+        else:
+            st.plotly_chart(
+                poses_figure(state.building(), drawn.HEIGHT_PX), key="poses"
+            )
+
+
+def _facts() -> None:
+    building = state.building()
+    st.caption(
+        f"{words.count(len(building.trajectory), 'pose')} in the trajectory; "
+        f"drawing {words.size()}."
+    )
+
+
+# --- Sketch ---------------------------------------------------------------------------
+
+
+def _sketch() -> None:
+    st.caption(
+        "Set waypoints with clicks or draw a free line; the robot follows it and "
+        "reads at equal steps."
+    )
+    st.slider("Step (px)", 1, 100, help="Between readings.", **_bound("step_px", 10))
+    st.selectbox(
+        "Headings",
+        list(HeadingMode),
+        format_func=HEADINGS.__getitem__,
+        **_bound("heading_mode", HeadingMode.ALONG),
+    )
+    st.toggle(
+        "Turn on the spot at waypoints",
+        help="Look in all four directions at each waypoint that was clicked.",
+        **_bound("turn", False),
+    )
+    st.toggle("Show the poses", **state.bind_view("show_poses", False))
+
+
+def _bound(name: str, default: object) -> dict[str, object]:
+    return state.bind_view(name, default, _follow)
+
+
+def _board() -> None:
+    """Show the board and let the robot follow what is drawn."""
+    building = state.building()
+    mask = building.truth or building.walls
+    corners = tuple(
+        BoardPoint(x_px=x, y_px=y, is_waypoint=w) for x, y, w in building.sketch
+    )
+    document = drawn.board(
+        KEY,
+        BoardMode.TRAJECTORY,
+        (mask, building.sketch),
+        lambda: drawn.document(base=pack_mask(mask.mask), points=corners),
+    )
+    if document is None:
+        return
+    sketch = tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points)
+    state.edit_building(sketch=sketch)
+    state.take_from_board(KEY, document, (mask, sketch))
+    if sketch:
+        state.attempt(_follow)
+
+
+def _follow() -> None:
+    """Take the poses along the sketch as the trajectory."""
+    sketch = state.building().sketch
+    if sketch:
+        trajectory = sketched_trajectory(
+            sketch,
+            state.view("step_px", 10),
+            state.view("heading_mode", HeadingMode.ALONG),
+            state.view("turn", False),
+        )
+        state.edit_building(trajectory=trajectory)
+
+
+# --- Plan -----------------------------------------------------------------------------
+
+
+def _plan() -> None:
+    st.slider(
+        "Spacing (px)",
+        5,
+        200,
+        help="Between positions of a tour that covers the free space through its "
+        "doors, with four headings each.",
+        **state.bind_view("spacing_px", 30),
+    )
+    _plan_button("Cover the free space", _cover)
+    _plan_button("Tour for this sensor", _tour)
+    st.number_input("Random poses", 1, 5000, **state.bind_view("n_random", 300))
+    st.number_input("Seed", 0, 9999, **state.bind_view("pose_seed", 1))
+    _plan_button("Draw random poses", _random)
+
+
+def _plan_button(label: str, make: object) -> None:
+    st.button(label, on_click=state.edit, args=(make,), width="stretch")
+
+
+def _cover() -> None:
+    tour = coverage_tour(state.building().world, float(state.view("spacing_px", 30)))
+    state.edit_building(trajectory=tour)
+
+
+def _tour() -> None:
+    tour = default_tour(state.building().world, state.settings().sensor)
+    state.edit_building(trajectory=tour)
+
+
+def _random() -> None:
+    n, seed = state.view("n_random", 300), state.view("pose_seed", 1)
+    state.edit_building(
+        trajectory=random_trajectory(state.building().world, int(n), int(seed))
+    )
+
+
+# --- Table ----------------------------------------------------------------------------
+
+
+def _table() -> None:
+    rev, columns = state.table(pose_columns)
+    edited = st.data_editor(
+        columns,
+        num_rows="dynamic",
+        height=380,
+        key=f"pose_table_{rev}",
+        column_config={
+            "x_px": st.column_config.NumberColumn("x (px)", format="%.2f"),
+            "y_px": st.column_config.NumberColumn("y (px)", format="%.2f"),
+            "theta_deg": st.column_config.NumberColumn("heading (°)", format="%.1f"),
+        },
+    )
+    if state.table_is_new(edited):
+        state.take_table(None, edited)
+        state.attempt(partial(_take_table, edited))
+
+
+def _take_table(edited: state.Columns) -> None:
+    state.take_table(trajectory_from_columns(edited), edited)
+
+
+# --- Files ----------------------------------------------------------------------------
+
+
+def _files() -> None:
+    uploads.trajectory("workshop_trajectory")
+    file_format = st.selectbox(
+        "Format",
+        list(TrajectoryFormat),
+        format_func=lambda item: item.value.upper(),
+        **state.bind_view("pose_format", TrajectoryFormat.CSV),
+    )
+    degrees = st.radio(
+        "Headings in",
+        list(UNITS),
+        format_func=UNITS.__getitem__,
+        horizontal=True,
+        disabled=file_format is TrajectoryFormat.TUM,
+        help="TUM files hold quaternions.",
+        **state.bind_view("pose_degrees", True),
+    )
+    trajectory: Trajectory = state.building().trajectory
+    st.download_button(
+        "Download the trajectory",
+        lambda: dump_trajectory(trajectory, file_format, degrees=degrees),
+        file_name=f"trajectory.{file_format.value}",
+        on_click="ignore",
+        width="stretch",
+    )

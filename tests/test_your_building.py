@@ -1,0 +1,330 @@
+"""The page "Your building": each section's controls, and every bad file."""
+
+import io
+import math
+import zipfile
+
+import cv2
+import numpy as np
+import pytest
+from PIL import Image
+
+from occsim import HeadingMode, TrajectoryFormat, dump_trajectory, load_sample
+from occsim.formats.project import Project, dump_project
+from occsim.strokes import Stroke, StrokeKind, encode_strokes
+from pages._ui.workshop import poses
+from tests.test_pages import launch, png, rooms, upload
+
+PAGE = "pages/2_Your_building.py"
+SECTIONS = (
+    *("1 Drawing", "2 Scale", "3 Walls", "4 Corrections"),
+    *("5 Ground truth", "6 Trajectory", "7 Keep"),
+)
+WAYS = ("Sketch", "Plan", "Table", "Files")
+
+
+def at(section, app=None, **views):
+    """The page at one of its sections."""
+    app = app or launch(PAGE)
+    before = app.session_state.get("views", {})
+    app.session_state["views"] = {**before, "section": section, **views}
+    app.run()
+    assert not app.exception
+    return app
+
+
+def own(app):
+    return app.session_state["own"]
+
+
+def press(app, label):
+    next(button for button in app.button if button.label == label).click().run()
+    assert not app.exception
+    return app
+
+
+def with_rooms():
+    return upload(at("1 Drawing"), "Drawing", "rooms.png", png(rooms()))
+
+
+def commit(app, key, **edits):
+    """Let the board of this key say what a hand drew on it."""
+    imposed = app.session_state["boards"][key].imposed
+    says = {"rev": imposed.rev, "token": imposed.token, **edits}
+    app.session_state[key] = {"committed": says}
+    app.run()
+    assert not app.exception
+    return app
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_every_section_opens_without_a_word_said(section):
+    assert not at(section).error
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_every_way_to_a_trajectory_opens(way):
+    assert not at("6 Trajectory", way=way).error
+
+
+# --- Drawing --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["png", "jpg", "tiff", "bmp", "webp", "gif", "pdf"])
+def test_every_kind_of_file_is_taken(kind):
+    out = io.BytesIO()
+    names = {"jpg": "JPEG", "tiff": "TIFF"}
+    Image.fromarray(rooms()).convert("RGB").save(out, names.get(kind, kind.upper()))
+    app = upload(at("1 Drawing"), "Drawing", f"plan.{kind}", out.getvalue(), "any/any")
+    assert not app.error
+    assert own(app).title == f"plan.{kind}"
+    assert own(app).wall_mask.any()
+
+
+def test_a_page_of_a_pdf_is_chosen():
+    out = io.BytesIO()
+    sheets = [
+        Image.fromarray(image).convert("RGB") for image in (rooms(), rooms(220, 160))
+    ]
+    sheets[0].save(out, "PDF", save_all=True, append_images=sheets[1:])
+    app = upload(at("1 Drawing"), "Drawing", "two.pdf", out.getvalue())
+    height, width = own(app).drawing.shape
+    assert width > height
+    app.number_input(key="view_pdf_page").set_value(2).run()
+    assert not app.exception
+    height, width = own(app).drawing.shape
+    assert height > width
+
+
+def test_a_large_drawing_is_worked_on_at_the_size_that_is_shown():
+    app = at("1 Drawing", working_px=500)
+    app = upload(app, "Drawing", "large.png", png(rooms(700, 1000)))
+    assert own(app).drawing.shape == (350, 500)
+    shown = "500 × 350 px. Scaled down from 1000 × 700 px."
+    assert any(caption.value == shown for caption in app.caption)
+
+
+def test_turning_and_undoing():
+    app = press(with_rooms(), "Turn right")
+    assert own(app).drawing.shape == (220, 160)
+    assert own(app).n_outside == own(app).n_inside_walls == 0
+    app = press(app, "Undo")
+    assert own(app).drawing.shape == (160, 220)
+    assert app.session_state["choice"] == "own"
+    app = press(app, "Undo")
+    assert app.session_state["choice"] == "a"
+
+
+def test_a_rectangle_on_the_board_crops():
+    app = commit(with_rooms(), "board_crop", points=[[0, 0, 1], [4 * 120, 4 * 100, 1]])
+    app = press(app, "Crop to the rectangle")
+    assert own(app).drawing.shape == (100, 120)
+
+
+def test_a_tilted_drawing_is_offered_to_be_straightened():
+    turn = cv2.getRotationMatrix2D((250, 200), 3.0, 1.0)  # anticlockwise on the screen
+    plan = cv2.warpAffine(rooms(400, 500), turn, (500, 400), borderValue=255)
+    app = upload(at("1 Drawing"), "Drawing", "tilted.png", png(plan))
+    label = next(b.label for b in app.button if b.label.startswith("Straighten"))
+    assert abs(float(label.removeprefix("Straighten by ").rstrip("°")) - 3.0) < 0.3
+    press(app, label)
+    assert any(b.label == "No tilt found" for b in app.button)
+
+
+# --- Scale ----------------------------------------------------------------------------
+
+
+def test_two_clicks_across_a_door_set_range_and_scale():
+    app = at("2 Scale", with_rooms())
+    # A length of 30 px, in quarters of a pixel: (10, 20) to (28, 44).
+    app = commit(app, "board_door", points=[[40, 80, 1], [112, 176, 1]])
+    assert own(app).door_px == 30.0
+    assert own(app).metres_per_px == pytest.approx(0.03)
+    assert app.session_state["settings"].range_px == 30
+    assert any("30 px (0.90 m)" in text.value for text in app.markdown)
+    app.number_input(key="view_door_width_m").set_value(1.2).run()
+    assert own(app).metres_per_px == pytest.approx(0.04)
+    app = press(app, "Forget the scale")
+    assert own(app).metres_per_px is None
+    assert any("pixels only" in info.value for info in app.info)
+
+
+# --- Walls, corrections, ground truth -------------------------------------------------
+
+
+def test_undone_strokes_leave_the_mask():
+    app = at("4 Corrections", with_rooms())
+    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
+    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
+    app = commit(app, "board_walls", first=0, strokes=[])
+    assert own(app).walls.strokes == ()
+    assert not own(app).wall_mask[80, 50]
+
+
+def test_a_commit_that_makes_no_sense_changes_nothing():
+    app = at("4 Corrections", with_rooms())
+    kept = own(app)
+    app = commit(app, "board_walls", first=0, strokes=[["x", 1, 2, 3]])
+    app = commit(app, "board_walls", first=-3, strokes="all")
+    assert own(app) is kept
+
+
+def test_a_board_that_left_the_screen_starts_from_what_was_drawn():
+    app = at("4 Corrections", with_rooms())
+    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
+    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
+    rev = app.session_state["boards"]["board_walls"].imposed.rev
+    app = at("4 Corrections", at("7 Keep", app))
+    imposed = app.session_state["boards"]["board_walls"].imposed
+    assert imposed.strokes == (dot,)
+    assert imposed.rev > rev
+
+
+def test_ground_truth_from_the_mask_from_nothing_and_none():
+    app = press(at("5 Ground truth", with_rooms()), "Start from the wall mask")
+    np.testing.assert_array_equal(own(app).truth.mask, own(app).wall_mask)
+    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
+    app = commit(app, "board_truth", first=0, strokes=encode_strokes([dot]))
+    assert own(app).world.occupied[80, 50]
+    assert not own(app).wall_mask[80, 50]
+    app = press(app, "Start from nothing")
+    assert not own(app).world.occupied.any()
+    app = press(app, "Map without ground truth")
+    assert own(app).truth is None
+    assert any("sees the wall mask itself" in text.value for text in app.markdown)
+
+
+# --- Trajectory -----------------------------------------------------------------------
+
+
+def test_a_sketch_becomes_a_trajectory():
+    app = at("6 Trajectory", with_rooms())
+    # From (30, 80) to (70, 80) px, a waypoint at each end.
+    app = commit(app, "board_path", points=[[120, 320, 1], [280, 320, 1]])
+    np.testing.assert_allclose(
+        own(app).trajectory.poses, [[x, 80, 0] for x in (30, 40, 50, 60, 70)]
+    )
+    app.slider(key="view_step_px").set_value(20).run()
+    assert len(own(app).trajectory) == 3
+    app.toggle(key="view_turn").set_value(True).run()
+    assert len(own(app).trajectory) == 9
+    app.selectbox(key="view_heading_mode").select(HeadingMode.FOUR).run()
+    assert len(own(app).trajectory) == 12
+    app.toggle(key="view_show_poses").set_value(True).run()
+    assert not app.exception
+
+
+def test_poses_are_planned_and_undone():
+    app = at("6 Trajectory", with_rooms(), way="Plan")
+    first = own(app).trajectory
+    for label in ("Cover the free space", "Tour for this sensor", "Draw random poses"):
+        app = press(app, label)
+        assert not app.error
+    assert len(own(app).trajectory) == 300
+    for _ in range(3):
+        app = press(app, "Undo")
+    assert own(app).trajectory is first
+
+
+def test_a_world_without_free_space_is_answered_in_one_sentence():
+    app = upload(
+        with_rooms(), "Drawing", "black.png", png(np.zeros((90, 90), np.uint8))
+    )
+    assert len(app.error) <= 1
+    assert not app.exception
+
+
+@pytest.mark.parametrize("kind", TrajectoryFormat)
+def test_every_trajectory_file_is_taken(kind):
+    trajectory = load_sample("a").trajectory
+    app = at("6 Trajectory", way="Files")
+    content = dump_trajectory(trajectory, kind)
+    app = upload(app, "Trajectory", f"path.{kind.value}", content, "any/any")
+    assert not app.error
+    np.testing.assert_allclose(
+        own(app).trajectory.poses[:, :2], trajectory.poses[:, :2]
+    )
+
+
+def test_the_unit_of_the_angles_may_be_told_afterwards():
+    app = at("6 Trajectory", way="Files")
+    app = upload(app, "Trajectory", "a.csv", b"100,100,90\n100,110,180\n", "text/csv")
+    assert "degrees or radians" in app.error[0].value
+    app.radio(key="view_angle_unit").set_value("Degrees").run()
+    assert not app.error
+    np.testing.assert_allclose(own(app).trajectory.poses[:, 2], [math.pi / 2, math.pi])
+
+
+def test_many_poses_are_drawn_as_points():
+    building = own(with_rooms())
+    figure = poses.poses_figure(building, 400)
+    assert len(figure.data) == 3
+    assert figure.data[1].marker.symbol == "arrow"
+
+
+# --- Keep -----------------------------------------------------------------------------
+
+
+def test_a_project_brings_everything_back():
+    app = at("2 Scale", with_rooms())
+    app = commit(app, "board_door", points=[[40, 80, 1], [112, 176, 1]])
+    saved = own(app)
+    content = dump_project(Project(building=saved, settings={"cell_px": "7"}))
+    app = upload(at("7 Keep"), "Project file", "mine.zip", content, "application/zip")
+    assert not app.error
+    assert own(app).digest == saved.digest
+    assert own(app).door_px == 30.0
+    assert app.session_state["settings"].cell_px == 7
+    app = press(app, "Undo")
+    assert app.session_state["choice"] == "a"
+
+
+def zip_with(name, content):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        archive.writestr(name, content)
+    return out.getvalue()
+
+
+BAD_PROJECTS = {
+    "empty": b"",
+    "words": b"no zip",
+    "another zip": zip_with("readme.txt", b"hello"),
+    "a path": zip_with("../../project.json", b"{}"),
+    "cut short": zip_with("project.json", b"{}" * 100)[:-30],
+}
+
+
+@pytest.mark.parametrize("kind", BAD_PROJECTS)
+def test_a_bad_project_is_answered_in_one_sentence_and_loses_nothing(kind):
+    app = at("7 Keep", with_rooms())
+    kept, settings = own(app), app.session_state["settings"]
+    app = upload(app, "Project file", "bad.zip", BAD_PROJECTS[kind], "application/zip")
+    assert len(app.error) == 1
+    assert own(app) is kept
+    assert app.session_state["settings"] is settings
+
+
+BAD_FILES = {
+    ("1 Drawing", "Drawing", "empty.png"): b"",
+    ("1 Drawing", "Drawing", "words.pdf"): b"no PDF at all",
+    ("1 Drawing", "Drawing", "cut.pdf"): b"%PDF-1.4\n1 0 obj",
+    ("1 Drawing", "Drawing", "cut.png"): png(rooms())[:300],
+    ("5 Ground truth", "Ground truth", "small.png"): png(rooms(80, 90)),
+    ("6 Trajectory", "Trajectory", "words.csv"): b"x,y,theta\na,b,c\n",
+    ("6 Trajectory", "Trajectory", "pickle.npy"): b"\x93NUMPY\x01\x00",
+    ("6 Trajectory", "Trajectory", "bad.mat"): b"MATLAB 5.0 MAT-file, cut",
+    ("6 Trajectory", "Trajectory", "bad.json"): b'{"poses": [[1, 2]]}',
+    ("6 Trajectory", "Trajectory", "bad.tum"): b"1 2 3 4 5 6 7 north\n",
+}
+
+
+@pytest.mark.parametrize("case", BAD_FILES, ids=lambda case: case[2])
+def test_a_bad_file_is_answered_in_one_sentence_and_loses_nothing(case):
+    section, label, name = case
+    app = at(section, with_rooms(), way="Files")
+    kept = own(app)
+    app = upload(app, label, name, BAD_FILES[case], "any/any")
+    assert len(app.error) == 1
+    assert "\n" not in app.error[0].value
+    assert own(app) is kept
