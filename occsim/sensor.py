@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from occsim._types import FloatArray
 from occsim.errors import ParameterError
+from occsim.grid import Grid
 from occsim.logodds import logit
 
 P_FREE_MAX = 0.9
@@ -80,6 +81,29 @@ class Sensor:
             raise ParameterError(
                 f"behind_hit must be a BehindHit; got {self.behind_hit!r}"
             )
+
+
+def most_cells_in_view(sensor: Sensor, grid: Grid) -> int:
+    """Return an upper bound of the cells that one reading can update.
+
+    Parameters
+    ----------
+    sensor : Sensor
+        Range and field of view.
+    grid : Grid
+        The cells.
+
+    Returns
+    -------
+    int
+        The cells that meet a sector of area A and perimeter P lie within a cell's
+        diagonal d of it, in an area of at most ``A + P d + pi d^2`` (Steiner).
+    """
+    area = 0.5 * sensor.fov_rad * sensor.range_px**2
+    perimeter = (2.0 + sensor.fov_rad) * sensor.range_px
+    diagonal = np.sqrt(2.0) * grid.cell_px
+    around = area + perimeter * diagonal + np.pi * diagonal**2
+    return min(grid.n_cells, int(around / grid.cell_px**2))
 
 
 def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> FloatArray:

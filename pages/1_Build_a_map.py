@@ -48,16 +48,17 @@ if building.truth is None:
         "No ground truth was given: the walls detected in the drawing serve as the "
         "world, so the prior is right everywhere."
     )
-replay = compute.replay(
-    building,
-    settings.sensor,
-    settings.cell_px,
-    settings.wall_share,
-    settings.truth_share,
-)
-state.take_from_player(
-    map_player(replay, state.player_document(), key=state.PLAYER_KEY)
-)
+with shell.explained():
+    replay = compute.replay(
+        building,
+        settings.sensor,
+        settings.cell_px,
+        settings.wall_share,
+        settings.truth_share,
+    )
+    state.take_from_player(
+        map_player(replay, state.player_document(), key=state.PLAYER_KEY)
+    )
 
 see, tell, why = st.columns(3, gap="large")
 with see:

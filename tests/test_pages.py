@@ -88,6 +88,16 @@ def test_the_widest_view_and_the_longest_range():
     assert not app.exception
 
 
+def test_more_than_can_be_replayed_is_refused_before_it_is_simulated():
+    app = launch(BUILD)
+    app.slider(key="control_cell_px").set_value(1)
+    app.slider(key="control_fov_deg").set_value(360)
+    app.slider(key="control_range_px").set_value(300).run()
+    assert "choose larger cells" in app.error[0].value
+    app.slider(key="control_cell_px").set_value(5).run()
+    assert not app.error
+
+
 def test_an_uploaded_plan_maps_at_once():
     app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
     assert not app.error

@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from occsim import ParameterError, Sensor
-from occsim.sensor import inverse_sensor_model
+from occsim import ParameterError, Sensor, Trajectory, World, collect_evidence
+from occsim.sensor import inverse_sensor_model, most_cells_in_view
 
 
 @pytest.mark.parametrize(
@@ -53,3 +55,17 @@ def test_a_full_turn_given_in_degrees_is_accepted():
 def test_what_lies_behind_a_hit_is_a_choice_not_a_string():
     with pytest.raises(ParameterError, match="behind_hit must be a BehindHit"):
         Sensor(behind_hit="occupied")
+
+
+@given(
+    range_px=st.floats(0.5, 40.0),
+    fov_rad=st.floats(0.05, 2.0 * np.pi),
+    cell_px=st.integers(1, 12),
+    pose=st.tuples(st.floats(0, 60), st.floats(0, 60), st.floats(-4, 4)),
+)
+def test_no_reading_updates_more_cells_than_the_bound(range_px, fov_rad, cell_px, pose):
+    world = World(occupied=np.zeros((60, 60), dtype=bool))
+    sensor = Sensor(range_px=range_px, fov_rad=fov_rad)
+    grid = world.grid(cell_px)
+    log = collect_evidence(world, Trajectory(poses=[pose]), sensor, grid)
+    assert log.cell.size <= most_cells_in_view(sensor, grid)

@@ -16,6 +16,7 @@ import streamlit as st
 from occsim import (
     EvidenceLog,
     Grid,
+    ParameterError,
     Sensor,
     collect_evidence,
     load_sample,
@@ -24,9 +25,10 @@ from occsim import (
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.drawing import Drawing
 from occsim.formats.image_files import drawing_png, png
-from occsim.formats.replay import pack_replay
+from occsim.formats.replay import MAX_ENTRIES, pack_replay
 from occsim.imageops import estimate_tilt
 from occsim.pareto import surface_front
+from occsim.sensor import most_cells_in_view
 from occsim.sweep import PriorSweep, prior_surface, sweep_surface
 from occsim.walls import (
     MaskComparison,
@@ -70,7 +72,24 @@ def grid_of(building: Building, cell_px: int) -> Grid:
 
 
 def evidence(building: Building, sensor: Sensor, cell_px: int) -> EvidenceLog:
-    """What all readings say, whatever the prior."""
+    """What all readings say, whatever the prior.
+
+    Raises
+    ------
+    ParameterError
+        Where the settings ask for more than a replay can hold: better one sentence now
+        than a minute of waiting first.
+    """
+    n_readings = len(building.trajectory)
+    grid = grid_of(building, cell_px)
+    most = n_readings * most_cells_in_view(sensor, grid)
+    if most > MAX_ENTRIES:
+        raise ParameterError(
+            f"{n_readings} readings with this range and field of view can make up to "
+            f"{most:,} updates of cells of {cell_px} px; at most {MAX_ENTRIES:,} are "
+            "simulated here: choose larger cells, a shorter range, a narrower field "
+            "of view or fewer poses"
+        )
     return _evidence(building.digest, sensor, cell_px, building)
 
 

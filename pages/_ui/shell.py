@@ -1,12 +1,14 @@
 """What every page starts with: set-up, the lessons, state; and what it ends with."""
 
 import contextlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import streamlit as st
 from streamlit.errors import StreamlitPageNotFoundError
 
+from occsim import OccsimError
 from pages._ui import state
 
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
@@ -40,6 +42,12 @@ LESSONS = (
         "Sweep the priors",
         "Every pair of prior values gives a map, and every map has a precision and a "
         "recall: here they are, all at once.",
+    ),
+    Lesson(
+        "pages/6_Pareto_explorer.py",
+        "Pareto explorer",
+        "No prior has both the highest precision and the highest recall: these are the "
+        "best compromises, and the map that each of them gives.",
     ),
 )
 
@@ -85,3 +93,12 @@ def heading(lesson: Lesson) -> None:
     """Draw the title of a page and its one sentence of purpose."""
     st.title(lesson.label, anchor=False)
     st.caption(lesson.purpose)
+
+
+@contextlib.contextmanager
+def explained() -> Iterator[None]:
+    """Show what the library refuses as its one sentence; the page goes on below."""
+    try:
+        yield
+    except OccsimError as error:
+        st.error(str(error))
