@@ -1,0 +1,174 @@
+"""Cases of a study as JSON files, so that a study can go on where it stopped."""
+
+import hashlib
+import json
+import os
+import re
+from dataclasses import asdict
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+
+from occsim._types import FloatArray
+from occsim.pareto import ParetoFront
+from occsim.study.run import StudyCase, StudyDrawing, StudySettings
+from occsim.sweep import PriorSweep
+
+FORMAT = "occsim study case"
+VERSION = 1
+
+_COUNTS = ("tp", "fp", "fn", "tn")
+_POINTS = ("p_wall", "p_space", "precision", "recall")
+
+
+def case_settings(
+    drawing: StudyDrawing, cell_px: int, settings: StudySettings
+) -> dict[str, Any]:
+    """Return everything that a case depends on, as plain values.
+
+    Parameters
+    ----------
+    drawing : StudyDrawing
+        What is mapped.
+    cell_px : int
+        Cell size, px.
+    settings : StudySettings
+        Of the study.
+
+    Returns
+    -------
+    dict
+        Format, versions, the drawing's name and digest, sensor, cell size, settings.
+    """
+    # The package imports its modules before it knows its version.
+    from occsim import __version__
+
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "software": {
+            "occsim": __version__,
+            "numpy": np.__version__,
+            "opencv": cv2.__version__,
+        },
+        "drawing": {
+            "name": drawing.name,
+            "digest": drawing.building.digest,
+            "n_poses": len(drawing.building.valid_trajectory()),
+        },
+        "sensor": _plain(drawing.sensor),
+        "cell_px": cell_px,
+        "settings": _plain(settings),
+    }
+
+
+def case_path(folder: Path, described: dict[str, Any]) -> Path:
+    """Return where a case belongs; other settings give another file.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the study.
+    described : dict
+        From `case_settings`.
+
+    Returns
+    -------
+    Path
+    """
+    content = json.dumps(described, sort_keys=True).encode()
+    key = hashlib.sha256(content).hexdigest()[:16]
+    name = re.sub(r"[^A-Za-z0-9_-]+", "_", described["drawing"]["name"])[:40]
+    return folder / f"{name}_{described['cell_px']}px_{key}.json"
+
+
+def save_case(path: Path, case: StudyCase, described: dict[str, Any]) -> None:
+    """Write a case, wholly or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        From `case_path`; its folder exists.
+    case : StudyCase
+        The result.
+    described : dict
+        From `case_settings`.
+    """
+    sweep, front = case.sweep, case.front
+    bounds = front.rectangles
+    result = {
+        "sweep": {name: getattr(sweep, name).tolist() for name in _COUNTS}
+        | {"p_wall": sweep.p_wall.tolist(), "p_space": sweep.p_space.tolist()},
+        "front": {name: getattr(front, name).tolist() for name in _POINTS}
+        | {"rectangles": None if bounds is None else bounds.tolist()},
+    }
+    partial = path.with_suffix(".part")
+    partial.write_text(
+        json.dumps(described | result, indent=1, allow_nan=False), encoding="utf-8"
+    )
+    os.replace(partial, path)
+
+
+def load_case(path: Path, described: dict[str, Any]) -> StudyCase | None:
+    """Return a case that was saved under the same settings.
+
+    Parameters
+    ----------
+    path : Path
+        From `case_path`.
+    described : dict
+        From `case_settings`.
+
+    Returns
+    -------
+    StudyCase or None
+        None where there is no such file or it is damaged: compute it then.
+    """
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        same = all(document[name] == value for name, value in described.items())
+        return _case(document) if same else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _case(document: dict[str, Any]) -> StudyCase:
+    return StudyCase(
+        name=document["drawing"]["name"],
+        cell_px=document["cell_px"],
+        sweep=_sweep(document["sweep"]),
+        front=_front(document["front"]),
+    )
+
+
+def _sweep(table: dict[str, Any]) -> PriorSweep:
+    p_wall, p_space = (_floats(table[name], (-1,)) for name in ("p_wall", "p_space"))
+    shape = (p_wall.size, p_space.size)
+    tp, fp, fn, tn = (
+        np.array(table[name], dtype=np.int64).reshape(shape) for name in _COUNTS
+    )
+    return PriorSweep(p_wall, p_space, tp=tp, fp=fp, fn=fn, tn=tn)
+
+
+def _front(points: dict[str, Any]) -> ParetoFront:
+    size = len(points["p_wall"])
+    p_wall, p_space, precision, recall = (
+        _floats(points[name], (size,)) for name in _POINTS
+    )
+    bounds = points["rectangles"]
+    rectangles = None if bounds is None else _floats(bounds, (size, 4))
+    return ParetoFront(p_wall, p_space, precision, recall, rectangles)
+
+
+def _floats(values: Any, shape: tuple[int, ...]) -> FloatArray:
+    return np.array(values, dtype=np.float64).reshape(shape)
+
+
+def _plain(parameters: Any) -> dict[str, Any]:
+    return {
+        name: value.value if isinstance(value, Enum) else value
+        for name, value in asdict(parameters).items()
+    }

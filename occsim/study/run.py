@@ -1,0 +1,335 @@
+"""A study: drawings times cell sizes, each swept and searched for its exact front."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from occsim._types import Progress
+from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.drawing import load_drawing
+from occsim.errors import ParameterError
+from occsim.evidence import collect_evidence
+from occsim.mapping import UpdateRule
+from occsim.metrics import Region
+from occsim.pareto import MIN_RECALL, ParetoFront, recommend, surface_front
+from occsim.published import SOURCE_AXIS, SOURCE_CELLS_PX
+from occsim.samples import load_sample, sample_names
+from occsim.sensor import BehindHit, Sensor
+from occsim.sweep import (
+    Maxima,
+    Objective,
+    PriorSweep,
+    maxima,
+    prior_surface,
+    sweep_surface,
+)
+from occsim.world import truth_cells, wall_cells
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class StudySettings:
+    """What all cases of a study have in common.
+
+    Parameters
+    ----------
+    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+        How a reading enters the map.
+    region : Region, default Region.EXPLORED
+        Which cells are scored.
+    behind_hit : BehindHit, default BehindHit.OCCUPIED
+        What the sensor says of pixels behind a wall.
+    low, high : float, default 0.1 and 1
+        Box of the exact front.
+    wall_share, truth_share : float, default 0
+        Share of wall pixels that a cell of the drawing, and of the ground truth, must
+        exceed to be a wall cell.
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+
+    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
+    region: Region = Region.EXPLORED
+    behind_hit: BehindHit = BehindHit.OCCUPIED
+    low: float = SOURCE_AXIS[0]
+    high: float = SOURCE_AXIS[-1]
+    wall_share: float = 0.0
+    truth_share: float = 0.0
+
+    def __post_init__(self) -> None:
+        kinds: tuple[tuple[str, type[Enum]], ...] = (
+            ("rule", UpdateRule),
+            ("region", Region),
+            ("behind_hit", BehindHit),
+        )
+        for name, kind in kinds:
+            value = getattr(self, name)
+            if not isinstance(value, kind):
+                raise ParameterError(
+                    f"{name} must be one of {kind.__name__}; got {value!r}"
+                )
+        if not 0.0 < self.low <= self.high <= 1.0:
+            raise ParameterError(
+                "low and high must satisfy 0 < low <= high <= 1; got "
+                f"{self.low!r} and {self.high!r}"
+            )
+        for name in ("wall_share", "truth_share"):
+            value = getattr(self, name)
+            if not 0.0 <= value < 1.0:
+                raise ParameterError(f"{name} must lie in [0, 1); got {value!r}")
+
+
+@dataclass(frozen=True, eq=False)
+class StudyDrawing:
+    """A drawing under study.
+
+    Parameters
+    ----------
+    name : str
+        Short name, unique in a study; that of a sample stands for the sample.
+    building : Building
+        Drawing, walls, world and trajectory.
+    sensor : Sensor
+        Its ``behind_hit`` is replaced by that of the study's settings.
+    """
+
+    name: str
+    building: Building
+    sensor: Sensor
+
+
+@dataclass(frozen=True, eq=False)
+class StudyCase:
+    """One drawing at one cell size.
+
+    Parameters
+    ----------
+    name : str
+        The drawing's.
+    cell_px : int
+        Cell size, px.
+    sweep : PriorSweep
+        Scores at the source's 10 x 10 pairs.
+    front : ParetoFront
+        The exact one.
+    """
+
+    name: str
+    cell_px: int
+    sweep: PriorSweep
+    front: ParetoFront
+
+    @cached_property
+    def precision(self) -> Maxima:
+        """Largest precision of the sweep and all of its pairs (Table 4.1)."""
+        return maxima(self.sweep, Objective.PRECISION)
+
+    @cached_property
+    def recall(self) -> Maxima:
+        """Largest recall of the sweep and all of its pairs (Table 4.2)."""
+        return maxima(self.sweep, Objective.RECALL)
+
+    def maxima(self, objective: Objective) -> Maxima:
+        """Return the maxima of one objective."""
+        return self.precision if objective is Objective.PRECISION else self.recall
+
+    @property
+    def conflict(self) -> bool:
+        """Whether no pair of the sweep attains both maxima."""
+        if np.isnan(self.precision.value) or np.isnan(self.recall.value):
+            return False
+        both = (self.sweep.precision == self.precision.value) & (
+            self.sweep.recall == self.recall.value
+        )
+        return not both.any()
+
+    def recommended(self, min_recall: float = MIN_RECALL) -> int | None:
+        """Return the index of the front's best F2 within set C, or None."""
+        return recommend(self.front, min_recall)
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """In how many cases the pattern of the source's tables appears.
+
+    Parameters
+    ----------
+    n_cases : int
+        Cases whose precision and recall are both defined somewhere.
+    recall_at_full_space : int
+        Recall peaks with p_space = 1 (among its ties).
+    precision_at_low_space : int
+        Precision peaks with p_space at most 0.5 (among its ties).
+    conflicts : int
+        No pair attains both maxima.
+    recall_only_at_full_space, precision_only_at_low_space : int
+        The same two, counting only cases with all ties there.
+    """
+
+    n_cases: int
+    recall_at_full_space: int
+    precision_at_low_space: int
+    conflicts: int
+    recall_only_at_full_space: int
+    precision_only_at_low_space: int
+
+
+LOW_SPACE = 0.5
+"""Largest p_space that counts as low in `Pattern`."""
+
+
+def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
+    """Return a sample by name, or a drawing from an image file.
+
+    Parameters
+    ----------
+    source : str
+        Name of a sample, or path of an image. An image's walls are detected and serve
+        as the world; a default tour is its trajectory.
+    sensor : Sensor, optional
+        For an image; a sample has its own.
+
+    Returns
+    -------
+    StudyDrawing
+
+    Raises
+    ------
+    DrawingError
+        Where the image cannot be used.
+    TrajectoryError
+        Where its walls leave no room to drive in.
+    ParameterError
+        Where there is neither such a sample nor such a file.
+    """
+    if source in sample_names():
+        building = building_from_sample(source)
+        return StudyDrawing(source, building, load_sample(source).sensor)
+    path = Path(source)
+    if not path.is_file():
+        raise ParameterError(
+            f"a drawing is a sample ({', '.join(sample_names())}) or an image file; "
+            f"got {source!r}"
+        )
+    sensor = sensor or Sensor()
+    building = building_from_drawing(load_drawing(path, name=path.stem), sensor)
+    return StudyDrawing(path.stem, building, sensor)
+
+
+def run_case(
+    drawing: StudyDrawing, cell_px: int, settings: StudySettings | None = None
+) -> StudyCase:
+    """Return the sweep and the exact front of one drawing at one cell size.
+
+    Parameters
+    ----------
+    drawing : StudyDrawing
+        What is mapped; poses outside the drawing or in walls are left out.
+    cell_px : int
+        Cell size, px.
+    settings : StudySettings, optional
+        The source's by default.
+
+    Returns
+    -------
+    StudyCase
+
+    Raises
+    ------
+    ParameterError
+        Where the cell size lies outside its domain.
+    TrajectoryError
+        Where no pose stands in free space.
+    """
+    settings = settings or StudySettings()
+    building = drawing.building
+    grid = building.world.grid(cell_px)
+    sensor = replace(drawing.sensor, behind_hit=settings.behind_hit)
+    evidence = collect_evidence(
+        building.world, building.valid_trajectory(), sensor, grid
+    )
+    surface = prior_surface(
+        evidence,
+        wall_cells(building.wall_mask, grid, settings.wall_share),
+        truth_cells(building.world, grid, settings.truth_share),
+        settings.rule,
+        settings.region,
+    )
+    return StudyCase(
+        name=drawing.name,
+        cell_px=cell_px,
+        sweep=sweep_surface(surface, SOURCE_AXIS, SOURCE_AXIS),
+        front=surface_front(surface, settings.low, settings.high),
+    )
+
+
+def run_study(
+    drawings: Iterable[StudyDrawing] | None = None,
+    cells: Sequence[int] = SOURCE_CELLS_PX,
+    settings: StudySettings | None = None,
+    on_progress: Progress | None = None,
+) -> list[StudyCase]:
+    """Return every drawing at every cell size, the drawings in turn.
+
+    Parameters
+    ----------
+    drawings : iterable of StudyDrawing, optional
+        All samples by default.
+    cells : sequence of int, default (3, 5, 10)
+        Cell sizes, px.
+    settings : StudySettings, optional
+        The source's by default.
+    on_progress : callable, optional
+        Called as ``on_progress(done, total)`` after every case.
+
+    Returns
+    -------
+    list of StudyCase
+
+    Raises
+    ------
+    ParameterError, TrajectoryError
+        As in `run_case`.
+    """
+    if drawings is None:
+        drawings = [study_drawing(name) for name in sample_names()]
+    pairs = [(drawing, cell_px) for drawing in drawings for cell_px in cells]
+    cases = []
+    for drawing, cell_px in pairs:
+        cases.append(run_case(drawing, cell_px, settings))
+        if on_progress is not None:
+            on_progress(len(cases), len(pairs))
+    return cases
+
+
+def pattern(cases: Iterable[StudyCase]) -> Pattern:
+    """Return in how many cases the source's pattern appears.
+
+    Parameters
+    ----------
+    cases : iterable of StudyCase
+        Those without any defined precision or recall are left out.
+
+    Returns
+    -------
+    Pattern
+    """
+    defined = [
+        case for case in cases if not np.isnan(case.precision.value + case.recall.value)
+    ]
+    full = [case.recall.p_space == 1.0 for case in defined]
+    low = [case.precision.p_space <= LOW_SPACE for case in defined]
+    return Pattern(
+        n_cases=len(defined),
+        recall_at_full_space=sum(bool(ties.any()) for ties in full),
+        precision_at_low_space=sum(bool(ties.any()) for ties in low),
+        conflicts=sum(case.conflict for case in defined),
+        recall_only_at_full_space=sum(bool(ties.all()) for ties in full),
+        precision_only_at_low_space=sum(bool(ties.all()) for ties in low),
+    )

@@ -1,0 +1,318 @@
+import csv
+import io
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from occsim import Drawing, ParameterError, Sensor, Trajectory, UpdateRule
+from occsim.building import Building, CorrectedMask
+from occsim.cli import main
+from occsim.formats.image_files import mask_png, png
+from occsim.pareto import ParetoFront
+from occsim.published import SOURCE_AXIS, published_maximum
+from occsim.study import (
+    StudyCase,
+    StudyDrawing,
+    StudySettings,
+    case_path,
+    case_settings,
+    fronts_csv,
+    fronts_picture,
+    load_case,
+    maps_picture,
+    maxima_csv,
+    maxima_text,
+    pattern,
+    pattern_text,
+    run_case,
+    run_study,
+    save_case,
+    study_drawing,
+    sweeps_csv,
+)
+from occsim.sweep import Objective, PriorSweep
+
+AXIS = np.array(SOURCE_AXIS)
+
+
+def room(shape=(60, 80)):
+    """A room: walls of 4 px around free space."""
+    walls = np.ones(shape, dtype=bool)
+    walls[4:-4, 4:-4] = False
+    return walls
+
+
+def drawing_of(walls, name="room", poses=((30, 30, 0.0), (40, 30, 1.5), (40, 30, 3.1))):
+    grey = np.where(walls, 0, 255).astype(np.uint8)
+    building = Building(
+        drawing=Drawing(np.stack([grey] * 3, axis=-1), name=name),
+        walls=CorrectedMask(walls),
+        trajectory=Trajectory(poses=poses),
+    )
+    return StudyDrawing(name, building, Sensor(range_px=40.0, fov_rad=1.0))
+
+
+def case_of(tp, fp, fn, name="x", cell_px=3):
+    """A case with given counts at the 10 x 10 pairs, by (row, column) or everywhere."""
+    tp, fp, fn = (np.broadcast_to(x, (10, 10)).astype(np.int64) for x in (tp, fp, fn))
+    sweep = PriorSweep(AXIS, AXIS, tp=tp, fp=fp, fn=fn, tn=np.zeros_like(tp))
+    front = ParetoFront(*(np.array([0.5]) for _ in range(4)))
+    return StudyCase(name, cell_px, sweep, front)
+
+
+@pytest.fixture(scope="module")
+def cases():
+    return run_study([drawing_of(room())], cells=(5, 10))
+
+
+def test_a_study_is_every_drawing_at_every_cell_size():
+    calls = []
+    drawings = [drawing_of(room(), "one"), drawing_of(room(), "two")]
+    found = run_study(
+        drawings, cells=(10, 20), on_progress=lambda *done: calls.append(done)
+    )
+    assert [(case.name, case.cell_px) for case in found] == [
+        ("one", 10),
+        ("one", 20),
+        ("two", 10),
+        ("two", 20),
+    ]
+    assert calls == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert found[0].sweep.precision.shape == (10, 10)
+
+
+def test_the_front_is_as_good_as_the_sweep(cases):
+    for case in cases:
+        assert case.front.recall.max() >= case.recall.value
+        assert case.front.precision.max() >= case.precision.value
+
+
+def test_settings_reach_the_sweep():
+    drawing = drawing_of(room())
+    once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
+    default, other = run_case(drawing, 5), run_case(drawing, 5, once)
+    assert not np.array_equal(default.sweep.tp, other.sweep.tp)
+
+
+def test_poses_in_walls_are_left_out():
+    drawing = drawing_of(room(), poses=((30, 30, 0.0), (1, 1, 0.0), (-9, 0, 0.0)))
+    alone = drawing_of(room(), poses=((30, 30, 0.0),))
+    np.testing.assert_array_equal(
+        run_case(drawing, 5).sweep.tp, run_case(alone, 5).sweep.tp
+    )
+
+
+@pytest.mark.parametrize(
+    ("walls", "poses"),
+    [
+        (np.zeros((40, 40), dtype=bool), ((20, 20, 0.0),)),
+        (room(), ((30, 30, 0.0),)),
+    ],
+    ids=["a drawing without walls", "a sensor that reaches none"],
+)
+def test_a_study_without_a_hit_is_told_as_it_is(walls, poses):
+    drawing = drawing_of(walls, poses=poses)
+    short = StudyDrawing(drawing.name, drawing.building, Sensor(range_px=3.0))
+    found = [run_case(short, 5)]
+    assert len(found[0].front) == 0
+    assert np.isnan(found[0].recall.value)
+    assert not found[0].conflict
+    assert found[0].recommended() is None
+    assert pattern(found).n_cases == 0
+    assert "–" in maxima_text(found)
+    assert fronts_csv(found).count("\n") == 1
+    assert maps_picture(found).shape == (274, 540, 3)
+    assert fronts_picture(found).shape[2] == 3
+
+
+def test_pattern_of_three_cases_by_hand():
+    """The first has both peaks in the pattern, and conflicting; the second none.
+
+    First: TP 2 of 4 in the column p_space = 1 with FP 2, else TP 1 and FP 0: recall
+    0.5 only there, precision 1 elsewhere (also below 0.5). Second: everything scores
+    the same, so the peaks are everywhere, also in one pair together. Third: undefined.
+    """
+    last = AXIS == 1.0
+    cases = [
+        case_of(np.where(last, 2, 1), np.where(last, 2, 0), np.where(last, 2, 3)),
+        case_of(1, 1, 1),
+        case_of(0, 0, 0),
+    ]
+    found = pattern(cases)
+    assert found.n_cases == 2
+    assert found.recall_at_full_space == 2
+    assert found.recall_only_at_full_space == 1
+    assert found.precision_at_low_space == 2
+    assert found.precision_only_at_low_space == 0
+    assert found.conflicts == 1
+    assert "in 1 of 2 cases" in pattern_text(cases)
+
+
+def test_published_maxima_stand_beside_those_of_the_samples():
+    """Tables 4.1 and 4.2 of the thesis, three entries read off the page."""
+    assert published_maximum(Objective.PRECISION, 3, "a") == (98.49, "(0.3, 0.3)")
+    assert published_maximum(Objective.PRECISION, 10, "c").pairs == (
+        "(0.1:0.2, 0.3:0.5)"
+    )
+    assert published_maximum(Objective.RECALL, 5, "e") == (88.68, "(0.9:1, 1)")
+    assert published_maximum(Objective.RECALL, 4, "a") is None
+    assert published_maximum(Objective.RECALL, 3, "room") is None
+    rows = list(csv.DictReader(io.StringIO(maxima_csv([case_of(3, 1, 1, name="d")]))))
+    assert rows[0]["percent"] == "75.0"
+    assert rows[0]["pairs"] == "(0.1:1, 0.1:1)"
+    assert rows[0]["published_percent"] == "95.56"
+    assert rows[1]["published_pairs"] == "(0.7:1, 1)"
+
+
+def test_undefined_figures_are_empty_in_csv():
+    row = next(csv.DictReader(io.StringIO(maxima_csv([case_of(0, 0, 0)]))))
+    assert (row["percent"], row["published_percent"]) == ("", "")
+    assert row["pairs"] == "–"
+
+
+def test_csv_files_hold_all_points_and_pairs(cases):
+    points = list(csv.DictReader(io.StringIO(fronts_csv(cases))))
+    assert len(points) == sum(len(case.front) for case in cases)
+    recommended = [row["recommended"] == "True" for row in points]
+    assert sum(recommended) == sum(case.recommended() is not None for case in cases) > 0
+    assert float(points[0]["precision"]) == cases[0].front.precision[0]
+    pairs = list(csv.DictReader(io.StringIO(sweeps_csv(cases))))
+    assert len(pairs) == 100 * len(cases)
+    assert (pairs[1]["p_wall"], pairs[1]["p_space"]) == ("0.1", "0.2")
+    assert int(pairs[1]["tp"]) == cases[0].sweep.tp[0, 1]
+
+
+def test_a_saved_case_comes_back_as_it_was(tmp_path, cases):
+    drawing, settings = drawing_of(room()), StudySettings()
+    described = case_settings(drawing, 5, settings)
+    path = case_path(tmp_path, described)
+    assert load_case(path, described) is None
+    save_case(path, cases[0], described)
+    again = load_case(path, described)
+    for name in ("p_wall", "p_space", "tp", "fp", "fn", "tn"):
+        np.testing.assert_array_equal(
+            getattr(again.sweep, name), getattr(cases[0].sweep, name)
+        )
+    for name in ("p_wall", "p_space", "precision", "recall", "rectangles"):
+        np.testing.assert_array_equal(
+            getattr(again.front, name), getattr(cases[0].front, name)
+        )
+    document = json.loads(path.read_text(encoding="utf-8"))
+    assert set(document["software"]) == {"occsim", "numpy", "opencv"}
+    assert document["settings"]["rule"] == "subtract_prior"
+    assert document["sensor"]["range_px"] == 40.0
+
+
+def test_other_settings_are_another_file(tmp_path):
+    drawing = drawing_of(room())
+    moved = drawing_of(room(), poses=((30, 31, 0.0),))
+    reach = StudyDrawing(
+        drawing.name, drawing.building, replace(drawing.sensor, range_px=41.0)
+    )
+    once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
+    paths = {
+        case_path(tmp_path, case_settings(*case))
+        for case in (
+            (drawing, 5, StudySettings()),
+            (drawing, 6, StudySettings()),
+            (drawing, 5, once),
+            (moved, 5, StudySettings()),
+            (reach, 5, StudySettings()),
+        )
+    }
+    assert len(paths) == 5
+
+
+def test_a_name_cannot_lead_out_of_the_folder(tmp_path):
+    drawing = drawing_of(room(), name="../../etc/passwd")
+    path = case_path(tmp_path, case_settings(drawing, 5, StudySettings()))
+    assert path.parent == tmp_path
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[]", '{"format": "other"}', "cut"])
+def test_a_damaged_case_is_computed_again(tmp_path, cases, damage):
+    described = case_settings(drawing_of(room()), 5, StudySettings())
+    path = case_path(tmp_path, described)
+    save_case(path, cases[0], described)
+    content = path.read_text(encoding="utf-8")
+    path.write_text(
+        content[: len(content) // 2] if damage == "cut" else damage, encoding="utf-8"
+    )
+    assert load_case(path, described) is None
+
+
+def test_pictures_show_every_case(cases):
+    maps = maps_picture(cases)
+    assert maps.dtype == np.uint8
+    assert maps.shape == (2 * 274, 540, 3)
+    # Both panels of both rows are coloured, not white or grey.
+    for top, left in ((130, 150), (404, 420)):
+        assert np.ptp(maps[top, left].astype(int)) > 0
+    assert (fronts_picture(cases) != fronts_picture(cases[:1])).any()
+    with pytest.raises(ParameterError, match="at least one case"):
+        maps_picture([])
+
+
+def test_the_command_writes_resumes_and_says_so(tmp_path, capsys):
+    image = tmp_path / "hall.png"
+    image.write_bytes(mask_png(room((120, 160))))
+    command = ["study", str(image), "--cells", "20", "10", "--out", str(tmp_path / "o")]
+    assert main(command) == 0
+    first = capsys.readouterr().out
+    assert first.count("computed") == 2
+    assert "Maximum precision (Table 4.1)" in first
+    written = {path.name for path in (tmp_path / "o").iterdir()}
+    assert {"maxima.csv", "fronts.csv", "sweeps.csv", "pattern.txt"} < written
+    assert {"maps_10px.png", "fronts_20px.png"} < written
+    next((tmp_path / "o" / "cases").glob("*_10px_*.json")).unlink()
+    assert main(command) == 0
+    second = capsys.readouterr().out
+    assert (second.count("computed"), second.count("kept")) == (1, 1)
+    assert second.split("\n\n", 1)[1] == first.split("\n\n", 1)[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["no such drawing"], "a drawing is a sample .* got 'no such drawing'"),
+        (["a", "--cells", "0"], "--cells must be 1 px or more; got 0"),
+        (["a", "--range-px", "-1"], "range_px must be above 0"),
+    ],
+)
+def test_bad_arguments_get_one_sentence(tmp_path, capsys, arguments, message):
+    assert main(["study", *arguments, "--out", str(tmp_path / "o")]) == 2
+    captured = capsys.readouterr()
+    assert len(captured.err.splitlines()) == 1
+    assert re.search(message, captured.err)
+
+
+def test_an_image_that_is_none_and_two_of_one_name_are_refused(tmp_path, capsys):
+    bad = tmp_path / "bad.png"
+    bad.write_bytes(b"no image")
+    assert main(["study", str(bad), "--out", str(tmp_path / "o")]) == 2
+    (tmp_path / "sub").mkdir()
+    twins = [tmp_path / "hall.png", tmp_path / "sub" / "hall.png"]
+    for path in twins:
+        path.write_bytes(png(np.where(room((120, 160)), 0, 255).astype(np.uint8)))
+    assert main(["study", *map(str, twins), "--out", str(tmp_path / "o")]) == 2
+    assert "must differ in name; got hall more than once" in capsys.readouterr().err
+
+
+def test_a_sample_has_its_own_sensor():
+    assert study_drawing("a", Sensor(range_px=7.0)).sensor.range_px != 7.0
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"rule": "once"}, "rule must be one of UpdateRule; got 'once'"),
+        ({"low": 0.0}, "low and high must satisfy"),
+        ({"wall_share": 1.0}, r"wall_share must lie in \[0, 1\)"),
+    ],
+)
+def test_bad_settings_are_refused(change, message):
+    with pytest.raises(ParameterError, match=message):
+        StudySettings(**change)
