@@ -128,6 +128,17 @@ def test_folding_keeps_the_mask_and_the_newest_strokes():
     assert (folded.mask() == full.mask()).all()
 
 
+def test_long_scribbles_are_folded_before_there_are_many():
+    corners = tuple((x % 40 + 0.5, x % 30 + 0.5) for x in range(3000))
+    scribble = Stroke(kind=StrokeKind.BRUSH, points=corners)
+    full = document(strokes=(scribble,) * 7)
+    assert full.should_fold
+    folded = full.folded()
+    assert (folded.first, len(folded.strokes)) == (4, 3)
+    assert not folded.should_fold
+    assert (folded.mask() == full.mask()).all()
+
+
 def test_few_strokes_are_not_folded():
     few = document(strokes=dots(KEEP))
     assert few.folded() is few

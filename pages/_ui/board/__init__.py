@@ -47,8 +47,14 @@ COMPONENT = "drawing_board"
 HEIGHT_PX = 560
 FOLD_ABOVE = 256
 """Strokes that are sent back with each commit, before the oldest join the base mask."""
+FOLD_POINTS = 20_000
+"""Points of strokes, likewise."""
 KEEP = 128
 """Newest strokes that stay strokes then: so many can still be undone."""
+KEEP_POINTS = 10_000
+"""Most points of those; long scribbles leave room for fewer strokes."""
+MAX_STROKE_POINTS = 2_000
+"""The board simplifies a longer stroke further."""
 MAX_PATH_POINTS = 5_000
 """No sketch has as many; they are resampled anyway."""
 
@@ -122,8 +128,8 @@ class BoardDocument:
 
     @property
     def should_fold(self) -> bool:
-        """Whether so many strokes have gathered that the oldest should be folded."""
-        return len(self.strokes) > FOLD_ABOVE
+        """Whether so much has gathered that the oldest strokes should be folded."""
+        return len(self.strokes) > FOLD_ABOVE or _n_points(self.strokes) > FOLD_POINTS
 
     def mask(self) -> Any:
         """Return the wall mask with all strokes, bool of shape (H, W)."""
@@ -134,12 +140,19 @@ class BoardDocument:
 
         To be imposed under the same `rev`: the board keeps what was drawn meanwhile.
         """
-        if len(self.strokes) <= KEEP:
+        new = self.strokes[-KEEP:]
+        while _n_points(new) > KEEP_POINTS:
+            new = new[1:]
+        if len(new) == len(self.strokes):
             return self
-        old, new = self.strokes[:-KEEP], self.strokes[-KEEP:]
+        old = self.strokes[: len(self.strokes) - len(new)]
         base = apply_strokes(unpack_mask(self.base, self.shape), old)
         first = self.first + len(old)
         return replace(self, base=pack_mask(base), first=first, strokes=new)
+
+
+def _n_points(strokes: tuple[Stroke, ...]) -> int:
+    return sum(len(stroke.points) for stroke in strokes)
 
 
 COLOURS = {
@@ -180,7 +193,10 @@ def drawing_board(
 
     Commits carry all edits since the document was imposed. They may be merged on their
     way, one that echoes an older rev is answered with None, and one that was under way
-    while strokes were folded is understood.
+    while strokes were folded is understood. A run can be cut short by the next one, so
+    the surest place to take a commit is `on_commit`, which runs first: there
+    ``decode_commit(value of the key, field "committed"; imposed, mode)`` gives the same
+    as this call.
 
     Parameters
     ----------
@@ -244,7 +260,7 @@ def board_data(
         "first": document.first,
         "strokes": encode_strokes(document.strokes),
         "points": [_encoded(point) for point in document.points],
-        "limits": {"points": MAX_PATH_POINTS},
+        "limits": {"points": MAX_PATH_POINTS, "strokePoints": MAX_STROKE_POINTS},
         "imageBytes": len(backdrop),
         "colours": COLOURS,
     }

@@ -168,5 +168,6 @@ function readTheme(b) {
 }
 
 function fail(b, error) {
+  b.root.dataset.ready = "1";
   b.root.querySelector("[data-part=hint]").textContent = `The board could not be drawn: ${error.message}`;
 }

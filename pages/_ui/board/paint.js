@@ -117,6 +117,28 @@ function paintPath(b) {
     disc(b, toScreen(b.camera, p), radius, i === 0 ? colour : b.colours.halo, i === 0 ? b.colours.halo : colour);
   });
   if (points.length) paintEndNames(b, points);
+  paintTarget(b, points);
+}
+
+// What a click would do here: take this point, insert one, or go on to it.
+function paintTarget(b, points) {
+  if (b.tool !== "waypoints" || b.gesture || b.panning || b.space || !b.hover || !points.length) return;
+  const mouse = { pointerType: "mouse" };
+  const hit = pointAt(b, b.hover, mouse);
+  if (hit >= 0) return disc(b, toScreen(b.camera, points[hit]), 7.5, b.colours.path, b.colours.halo);
+  const at = toScreen(b.camera, b.hover);
+  const { ctx } = b;
+  if (segmentAt(b, b.hover, mouse) < 0) {
+    ctx.beginPath();
+    ctx.moveTo(...toScreen(b.camera, points[points.length - 1]));
+    ctx.lineTo(...at);
+    ctx.setLineDash([4, 5]);
+    ctx.lineWidth = 1.25;
+    ctx.strokeStyle = b.colours.path;
+    ctx.stroke();
+    ctx.setLineDash([]);
+  }
+  disc(b, at, 4.5, b.colours.halo, b.colours.path);
 }
 
 function paintEndNames(b, points) {

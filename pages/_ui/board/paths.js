@@ -90,7 +90,8 @@ function freehand(b, p, event) {
     },
     end() {
       const isClick = raw.length === 1;
-      show(simplified(raw, Math.max(0.5, FREEHAND_CSS_PX / b.camera.scale)), isClick ? WAYPOINT : FREEHAND);
+      const tolerance = Math.max(0.5, FREEHAND_CSS_PX / b.camera.scale);
+      show(atMost(b.header.limits.strokePoints, raw, tolerance), isClick ? WAYPOINT : FREEHAND);
       setPoints(b, b.doc.points, before);
     },
     cancel: () => (b.doc.points = before),

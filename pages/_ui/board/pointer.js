@@ -35,7 +35,8 @@ function pointerDown(b, event) {
   b.pointers.set(event.pointerId, screenPoint(b, event));
   if (b.pointers.size > 1) return startPinch(b);
   if (event.button === 1 || b.space || b.tool === "hand") return startPan(b);
-  if (event.button !== 0) return;
+  // With Ctrl it is the right click of a Mac.
+  if (event.button !== 0 || event.ctrlKey) return;
   b.pressedAt = screenPoint(b, event);
   startGesture(b, imagePoint(b, event), event);
   if (event.pointerType === "touch" && b.tool === "waypoints") armLongPress(b, event);

@@ -135,6 +135,13 @@ function simplified(points, tolerance) {
   return points.filter((_, i) => keep[i]);
 }
 
+// The same with as many points as are allowed: a long scribble is simplified more.
+function atMost(limit, points, tolerance) {
+  let few = simplified(points, tolerance);
+  for (let t = 2 * tolerance; few.length > limit; t *= 2) few = simplified(few, t);
+  return few;
+}
+
 function distanceToSegment(p, a, b) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const squared = dx * dx + dy * dy;

@@ -79,10 +79,10 @@ const ACTIONS = {
     label: "Delete all points",
     icon: '<path d="M5 7h14M10 7V4.5h4V7M7 7l1 12.5h8L17 7M10.5 10.5v6m3-6v6"/>',
   },
-  "zoom-out": { label: "Zoom out (-)", icon: '<circle cx="10.5" cy="10.5" r="6"/><path d="m15 15 5 5M8 10.5h5"/>' },
+  "zoom-out": { label: "Zoom out (-, or the wheel once the drawing was clicked)", icon: '<circle cx="10.5" cy="10.5" r="6"/><path d="m15 15 5 5M8 10.5h5"/>' },
   fit: { label: "Fit the drawing (0)", icon: '<path d="M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5"/>' },
   "zoom-in": {
-    label: "Zoom in (+)",
+    label: "Zoom in (+, or the wheel once the drawing was clicked)",
     icon: '<circle cx="10.5" cy="10.5" r="6"/><path d="m15 15 5 5M8 10.5h5M10.5 8v5"/>',
   },
 };

@@ -25,7 +25,7 @@ function freeLine(kind) {
       end() {
         restore(b, before, dirty);
         const tolerance = clamped(SMOOTH_CSS_PX / b.camera.scale, 0.25, 1);
-        const stroke = madeStroke(kind, width, simplified(raw, tolerance));
+        const stroke = madeStroke(kind, width, atMost(b.header.limits.strokePoints, raw, tolerance));
         refreshTint(b, unionBox(dirty, applyStroke(b.grid, stroke)));
         addStroke(b, stroke);
       },
