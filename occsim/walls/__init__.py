@@ -2,9 +2,11 @@
 
 from occsim.walls.compare import MaskComparison, MaskError, compare_masks
 from occsim.walls.detect import detect_walls
+from occsim.walls.notes import STAGE_NOTES
 from occsim.walls.params import Slider, Stage, StageNote, WallDetection, WallParams
 
 __all__ = [
+    "STAGE_NOTES",
     "MaskComparison",
     "MaskError",
     "Slider",

@@ -1,23 +1,49 @@
 """Wall detection: from a drawing to a wall mask, stage by stage."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from occsim._types import ByteArray
+from occsim._types import ByteArray, FloatArray
 from occsim.drawing import Drawing
+from occsim.walls.bands import textured, wall_bands
+from occsim.walls.connect import connected_walls, line_walls
 from occsim.walls.doors import find_swings, leaves
-from occsim.walls.ink import darkness, find_ink, find_tone
+from occsim.walls.gaps import find_gaps
+from occsim.walls.hollow import gap_limits, hollow_walls
+from occsim.walls.ink import darkness, find_fills, find_ink
+from occsim.walls.measures import Measures, measure
 from occsim.walls.params import Stage, WallDetection, WallParams
-from occsim.walls.raster import (
-    as_bytes,
-    box,
-    closed,
-    components,
-    dilated,
-    narrow_places,
-    opened,
-)
-from occsim.walls.runs import line_thickness, strip_votes
-from occsim.walls.upright import working_frame
+from occsim.walls.raster import box, closed, components, dilated, opened
+from occsim.walls.runs import strip_votes
+from occsim.walls.upright import Frame, working_frame
+
+HOLLOW_SHARE = 0.1
+"""Share of all walls that hollow ones must have for a drawing to use them."""
+
+INKED_SHARE = 0.3
+"""Share of masses that ink must have for solid walls to be the drawing's own."""
+
+DOOR_REACH = 1.6
+"""Widest doorway, in usual leaves: two leaves, or a leaf and its frame."""
+
+DOOR_SHARE = 0.15
+"""Widest doorway where no leaf is found, as a share of the shorter side."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Strokes:
+    """What is left of the ink once text and doors are out.
+
+    Lines, ink thicker than lines, grey and coloured fills, doorways to be left open,
+    and the widest doorway in px.
+    """
+
+    lines: ByteArray
+    mass: ByteArray
+    fills: ByteArray
+    doorways: ByteArray
+    door_px: float
 
 
 def detect_walls(
@@ -26,88 +52,114 @@ def detect_walls(
 ) -> WallDetection:
     """Find the walls in a drawing by image processing.
 
+    Solid walls are found by their thickness, hollow ones as long narrow gaps between
+    lines, hatched and filled ones as bands of even thickness. Text, doors, stairs,
+    tiles and furniture are left out by rules of shape, so that the result is imperfect.
+
     Parameters
     ----------
     drawing : Drawing
-        The drawing, shape (H, W).
+        The drawing, shape (H, W); dark on light or light on dark, upright or tilted.
     params : WallParams, optional
         Settings; by default all are estimated from the drawing.
 
     Returns
     -------
     WallDetection
-        The mask, and a picture for each stage.
+        The mask, shape (H, W), and a picture for each stage.
     """
-    frame = working_frame(
-        darkness(drawing.rgb, params.shadow_window_px), params.straighten
-    )
-    dark, scale = frame.dark, frame.scale
-    extent = min(dark.shape)
-    ink = find_ink(dark, params.ink_level)
-    line = min(line_thickness(ink), round(max(2.0 * scale, 0.009 * extent)))
-    parts = components(ink)
-    symbol = max(12 * scale, 0.035 * extent)
-    strokes = ink & ~parts.chosen(parts.longest <= symbol)
-    thin_px = max(int(np.ceil(2.2 * line)), 3)
-    solid = opened(ink, box(thin_px)) | _fills(dark, ink, max(thin_px, line + 2))
-    small_px = 2.5 * line
-    holes, _ = narrow_places(as_bytes(strokes | solid == 0), small_px)
-    pieces = components(holes, 4)
-    textured = strokes | solid | pieces.chosen(pieces.area <= (4 * small_px) ** 2)
-    solid |= opened(textured, box(3.2 * line))
-    thin = strokes & ~dilated(solid, box(3))
-    swings = find_swings(
-        thin, (max(0.04 * extent, 8 * scale), 0.3 * extent), params.door_fit, scale
-    )
-    leaf, _ = leaves(swings, ink, line)
-    strokes &= ~leaf
-    strips = _hollow(strokes, solid, line, params, int(0.06 * extent))
-    faces = dilated(strips, box(2 * line + 1)) & strokes
-    wall = (solid & ~leaf) | strips | faces
-    wall = opened(closed(wall, box(line + 1)), box(thin_px))
-    groups = components(wall)
-    reach = np.hypot(groups.width, groups.height)
-    reach[0] = 0.0
-    found = groups.chosen(reach >= 0.2 * reach.max())
-    pictures = {
-        "Ink": ink,
-        "Text and symbols removed": strokes,
-        "Solid walls": solid,
-        "Hollow walls": strips,
-        "Connected walls": found,
-    }
-    stages = tuple(
-        Stage(title, np.where(frame.back(mask), 0, 255).astype(np.uint8))
-        for title, mask in pictures.items()
+    dark = darkness(drawing.rgb, params.shadow_window_px)
+    frame = working_frame(dark, params.straighten)
+    ink = find_ink(frame.dark, params.ink_level)
+    m = measure(ink, params, frame.scale)
+    letters = _letters(ink, m)
+    strokes = _strokes(frame.dark, ink & ~letters, letters, params, m)
+    gaps, bands, walls = _walls(strokes, params, m)
+    found = connected_walls(walls, strokes.door_px, params.min_piece_px * m.scale)
+    if found.sum() < m.extent * m.thin:
+        walls = line_walls(strokes.lines, m.extent)
+        found = connected_walls(walls, strokes.door_px, params.min_piece_px * m.scale)
+    stages = (
+        Stage("Darkness", 255 - dark),
+        _stage(frame, "Ink", ink),
+        _stage(frame, "Text and symbols removed", ink & ~letters),
+        _stage(frame, "Doors removed", strokes.lines, strokes.doorways),
+        _stage(frame, "Solid walls", strokes.mass),
+        _stage(frame, "Filled and hatched walls", bands, strokes.fills),
+        _stage(frame, "Hollow walls and windows", gaps[0], gaps[1]),
+        _stage(frame, "Connected walls", found, walls),
     )
     return WallDetection(mask=frame.back(found), stages=stages)
 
 
-def _fills(dark: ByteArray, ink: ByteArray, size: float) -> ByteArray:
-    """Return the grey and coloured fills that are thin enough for walls."""
-    tone = opened(find_tone(dark) | ink, box(size))
-    fat = opened(tone, box(0.08 * min(dark.shape)))
-    areas = components(tone)
-    mostly_fat = areas.total(fat) > 0.3 * areas.area
-    return tone & ~areas.chosen(mostly_fat) & ~dilated(fat, box(3))
+def _stage(
+    frame: Frame, title: str, black: ByteArray, grey: ByteArray | None = None
+) -> Stage:
+    """Draw a stage: what it keeps in black, what it only considered in grey."""
+    image = np.where(frame.back(black), 0, 255).astype(np.uint8)
+    if grey is not None:
+        image[frame.back(grey) & (image > 0)] = 190
+    return Stage(title, image)
 
 
-def _hollow(
-    strokes: ByteArray, solid: ByteArray, line: int, params: WallParams, max_px: int
-) -> ByteArray:
-    """Return the clear gaps between the two lines of hollow walls."""
-    solid_votes = strip_votes(solid, 1, max_px, line)
-    gap_votes = strip_votes(strokes | solid, 0, max_px, line)
-    gap_votes[: max(2, int(0.6 * line))] = 0.0
-    total = gap_votes.sum()
-    if total <= 0.1 * (total + solid_votes.sum()):
-        return np.zeros_like(strokes)
-    usual = np.flatnonzero(gap_votes > 0.08 * total)
-    if len(usual) == 0:
-        return np.zeros_like(strokes)
-    widest = params.max_gap_px or 1.25 * usual.max() + 1
-    narrow, depth_px = narrow_places(as_bytes(strokes | solid == 0), widest)
-    gaps = components(narrow, 4)
-    width = np.maximum(4 * gaps.total(depth_px) / gaps.area - 1, 1.0)
-    slender = gaps.area / width >= params.min_slenderness * width
-    return gaps.chosen(slender & (width >= usual.min() - 1) & (width <= widest + 1))
+def _letters(ink: ByteArray, m: Measures) -> ByteArray:
+    """Return text and symbols: small, or larger but without any long stroke."""
+    parts = components(ink)
+    straight = opened(ink, box(m.symbol, 1)) | opened(ink, box(1, m.symbol))
+    curly = (parts.total(straight) == 0) & (parts.longest <= 0.15 * m.extent)
+    return parts.chosen(curly | (parts.longest <= m.symbol))
+
+
+def _strokes(
+    dark: ByteArray,
+    ink: ByteArray,
+    letters: ByteArray,
+    params: WallParams,
+    m: Measures,
+) -> _Strokes:
+    """Tell lines, masses and fills apart, and take the doors out of them."""
+    mass = opened(ink, box(m.thin))
+    fills = find_fills(dark, letters, m, params.fill_level)
+    swings = find_swings(ink & ~dilated(mass, box(3)), m, params.door_fit)
+    leaf, doorways = leaves(swings, ink, m.line)
+    # A leaf shut against a wall must not take the wall along.
+    leaf &= ~opened(ink, box(1.5 * m.thin))
+    door_px = DOOR_SHARE * m.extent
+    if swings:
+        door_px = DOOR_REACH * float(np.median([s.radius_px for s in swings]))
+    return _Strokes(ink & ~leaf, mass & ~leaf, fills & ~leaf, doorways, door_px)
+
+
+def _walls(
+    s: _Strokes, params: WallParams, m: Measures
+) -> tuple[tuple[ByteArray, ByteArray], ByteArray, ByteArray]:
+    """Return gaps taken and considered, bands taken, and all walls."""
+    areas = textured(s.lines | s.fills, m.line) | s.fills
+    votes = _votes(s, areas, m)
+    limits = gap_limits(votes["gaps"], votes["areas"], params, m)
+    solid = s.mass
+    if not limits.hollow and votes["mass"].sum() < INKED_SHARE * votes["areas"].sum():
+        solid = np.zeros_like(solid)  # blots in the hatching, not walls
+    bands = np.zeros_like(solid)
+    if not limits.hollow:
+        bands = wall_bands(areas & ~solid, solid, m)
+    gaps = find_gaps(s.lines | solid | bands, limits.widest_px, m.line)
+    taken = gaps.parts.chosen(hollow_walls(gaps, s.doorways, limits))
+    faces = dilated(taken, box(2 * m.line + 1)) & s.lines
+    walls = solid | bands | taken | faces
+    if limits.hollow:
+        bands = wall_bands(areas & ~walls, walls, m)
+    walls = opened(closed(walls | bands, box(m.line + 1)), box(m.thin))
+    return (taken, gaps.parts.chosen(gaps.slenderness > 1)), bands, walls
+
+
+def _votes(s: _Strokes, areas: ByteArray, m: Measures) -> dict[str, FloatArray]:
+    """Return how much of each way of drawing walls there is, by thickness."""
+    longest = int(m.thick)
+    gaps = strip_votes(s.lines | s.mass, 0, longest, m.line)
+    gaps[: max(2, m.line)] = 0.0  # the inside of a door leaf
+    masses = strip_votes(areas | s.mass, 1, longest, m.line)
+    if gaps.sum() < HOLLOW_SHARE * (gaps.sum() + masses.sum()):
+        gaps[:] = 0.0
+    ink = strip_votes(s.mass, 1, longest, m.line)
+    return {"gaps": gaps, "areas": masses, "mass": ink}

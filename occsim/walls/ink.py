@@ -4,7 +4,9 @@ import cv2
 import numpy as np
 
 from occsim._types import ByteArray
-from occsim.walls.raster import as_bytes
+from occsim.walls.measures import Measures
+from occsim.walls.raster import as_bytes, box, components, dilated, opened
+from occsim.walls.runs import line_thickness
 
 SMALL_SIDE_PX = 160
 """Shorter side to which a picture is reduced to find its paper, px."""
@@ -12,7 +14,7 @@ SMALL_SIDE_PX = 160
 WINDOW_SHARE = 1 / 8
 """Automatic window for shadows, share of the shorter side: wider than any wall."""
 
-OTSU_SHARE = 0.7
+OTSU_SHARE = 0.85
 """Ink begins below Otsu's threshold: half-covered pixels of hairlines count."""
 
 FAINTEST_INK = 30
@@ -20,6 +22,15 @@ FAINTEST_INK = 30
 
 FAINTEST_FILL = 20
 """Darkness below which no area is a fill, of 255."""
+
+BLURRED_LINE_SHARE = 0.012
+"""Thickest line with its blurred edges, as a share of the shorter side."""
+
+FAT_SHARE = 0.08
+"""Thickness from which a fill is a room's, as a share of the shorter side."""
+
+MOSTLY_FAT = 0.3
+"""Share of a fill's area so thick from which all of it is a room's."""
 
 EVEN_PAPER = 3
 """Spread of the paper's brightness up to which it is taken for even, of 255."""
@@ -61,7 +72,8 @@ def darkness(rgb: ByteArray, window_px: float = 0.0) -> ByteArray:
 
 def _paper(small: ByteArray, window: int) -> ByteArray:
     """Return the brightness of the paper over a reduced picture, (h, w, 3)."""
-    brightest = np.asarray(cv2.dilate(small, np.ones((window, window), np.uint8)))
+    kernel = np.ones((window, window), np.uint8)
+    brightest = np.asarray(cv2.morphologyEx(small, cv2.MORPH_CLOSE, kernel))
     usual = np.median(brightest.reshape(-1, 3), axis=0)
     # Darker than half the usual paper is a large dark fill, not a shadow.
     light = np.where(brightest < usual / 2, usual, brightest).astype(np.uint8)
@@ -82,8 +94,42 @@ def find_ink(dark: ByteArray, level: float = 0.0) -> ByteArray:
     return as_bytes(dark > ink_threshold(dark, level))
 
 
-def find_tone(dark: ByteArray, level: float = 0.0) -> ByteArray:
-    """Return the pixels that are darker than paper, light fills among them."""
+def find_fills(
+    dark: ByteArray, letters: ByteArray, m: Measures, level: float = 0.0
+) -> ByteArray:
+    """Return grey and coloured areas that are thick enough, and thin enough, for walls.
+
+    Parameters
+    ----------
+    dark : ndarray of uint8, shape (h, w)
+        Darkness.
+    letters : ndarray of uint8, shape (h, w)
+        Text and symbols.
+    m : Measures
+        Lengths of the drawing.
+    level : float, default 0
+        Darkness from which an area is filled, in [0, 1); 0 for automatic.
+    """
+    calm = np.asarray(cv2.medianBlur(dark, 3), dtype=np.uint8)
+    calm *= 1 - dilated(letters, box(5))
     grain = 2 * float(np.percentile(dark, 60))  # drawings are mostly paper
-    threshold = 255 * level if level else max(FAINTEST_FILL, grain)
-    return as_bytes(np.asarray(cv2.blur(dark, (3, 3))) > threshold)
+    threshold = 255 * level or max(FAINTEST_FILL, grain)
+    blur = max(3.0 * m.scale, BLURRED_LINE_SHARE * m.extent)
+    line_px = line_thickness(as_bytes(calm > threshold), blur)
+    areas = _thick_tone(calm, threshold, max(m.thin, line_px + 2))
+    fat = opened(areas, box(FAT_SHARE * m.extent))
+    parts = components(areas)
+    rooms = parts.chosen(parts.total(fat) > MOSTLY_FAT * parts.area)
+    return areas & ~rooms & ~dilated(fat, box(3))
+
+
+def _thick_tone(dark: ByteArray, threshold: float, size_px: float) -> ByteArray:
+    """Return what is darker than paper all over a box of the given size.
+
+    A wall filled with grey between two black lines passes, a line or a letter of the
+    same darkness does not.
+    """
+    level = opened(dark, box(size_px))
+    # Blurred edges are cut at half the level beside them.
+    half = dilated(level, box(3)) // 2
+    return as_bytes((level > threshold) & (dark >= half))

@@ -34,8 +34,6 @@ class WallParams:
         Widest clear gap between the two lines of a hollow wall, at least 0.
     min_slenderness : float, default 3
         Length over width from which a gap between lines is a wall's, in [1, 20].
-    max_window_px : float, default 0
-        Longest window that is closed between two walls, at least 0.
     min_piece_px : float, default 0
         Shortest group of connected walls that is kept, at least 0.
     straighten : bool, default True
@@ -56,7 +54,6 @@ class WallParams:
     max_wall_px: float = 0.0
     max_gap_px: float = 0.0
     min_slenderness: float = 3.0
-    max_window_px: float = 0.0
     min_piece_px: float = 0.0
     straighten: bool = True
 
@@ -91,7 +88,6 @@ LENGTHS = (
     "min_wall_px",
     "max_wall_px",
     "max_gap_px",
-    "max_window_px",
     "min_piece_px",
 )
 

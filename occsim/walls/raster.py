@@ -20,14 +20,27 @@ def box(width_px: float, height_px: float | None = None) -> ByteArray:
 
 
 def opened(mask: ByteArray, kernel: ByteArray) -> ByteArray:
-    """Return the pixels that a kernel inside the mask can cover."""
-    # The border counts as more of the same, so that walls may run off the sheet.
-    return _bytes(cv2.morphologyEx(mask, cv2.MORPH_OPEN, kernel))
+    """Return the pixels that a kernel inside the mask can cover.
+
+    The border counts as more of the same, so that walls may run off the sheet.
+    """
+    there, back = _anchors(kernel)
+    shrunk = cv2.erode(mask, kernel, anchor=there)
+    return _bytes(cv2.dilate(shrunk, kernel, anchor=back))
 
 
 def closed(mask: ByteArray, kernel: ByteArray) -> ByteArray:
     """Return the mask with what the kernel cannot enter filled in."""
-    return _bytes(cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel))
+    there, back = _anchors(kernel)
+    grown = cv2.dilate(mask, kernel, anchor=there)
+    return _bytes(cv2.erode(grown, kernel, anchor=back))
+
+
+def _anchors(kernel: ByteArray) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Return anchors for the two steps; even kernels would shift the picture."""
+    height, width = kernel.shape
+    there = width // 2, height // 2
+    return there, (width - 1 - there[0], height - 1 - there[1])
 
 
 def dilated(mask: ByteArray, kernel: ByteArray) -> ByteArray:

@@ -5,14 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
+from occsim.walls.raster import Components
 
 OUTSIDE = 2  # what lies above the first and below the last row
 
-MAX_LINE_PX = 64
-"""Thickest run that may be a line, px; keeps the histogram short."""
+LINE_QUANTILE = 0.8
+"""Share of the length of all thin strokes that is no thicker than `line_px`."""
 
-LINE_SHARE = 0.08
-"""Share of all runs that the thinnest hill must hold to be the drawing's line."""
+SHORTEST_STRIP_PX = 12
+"""Shortest run of equal columns that makes a strip, px."""
 
 SAME_STRIP_GAP_PX = 3
 """Columns that a strip may miss, px: where a line ends on it."""
@@ -48,21 +49,76 @@ def column_runs(mask: ByteArray) -> Runs:
     return Runs(column, row - 1, np.diff(change), flat[first])
 
 
-def line_thickness(ink: ByteArray) -> int:
-    """Return the thickness of the drawing's lines, px, at least 1.
+def run_lengths(mask: ByteArray) -> IntArray:
+    """Return, for each pixel, the length of the column's run that it lies in, px."""
+    height, width = mask.shape
+    runs = column_runs(mask)
+    # Each column is preceded by one pixel of outside (two at a seam, one run).
+    flat = np.repeat(
+        runs.length[runs.value != OUTSIDE], runs.length[runs.value != OUTSIDE]
+    )
+    return flat.reshape(width, height).T
 
-    The thinnest hill in the histogram of run lengths, both ways, that holds a fair
-    share of all runs.
+
+def steadiness(mask: ByteArray, parts: Components, widest_px: float) -> FloatArray:
+    """Return the share of each component's area that has one of its two usual widths.
+
+    Two, because walls of two thicknesses meet. Wedges, letters and hangers have many.
+
+    Parameters
+    ----------
+    mask : ndarray of uint8, shape (H, W)
+        The components' pixels.
+    parts : Components
+        Components of the mask.
+    widest_px : float
+        Widths beyond this are all the same, px.
+
+    Returns
+    -------
+    ndarray of float64, shape (N,)
     """
-    counts = np.zeros(MAX_LINE_PX + 2)
-    for mask in (ink, ink.T):
-        runs = column_runs(mask)
-        lengths = runs.length[(runs.value == 1) & (runs.length <= MAX_LINE_PX)]
-        counts += np.bincount(lengths, minlength=MAX_LINE_PX + 2)
-    before, here, after = counts[:-2], counts[1:-1], counts[2:]
-    hill = (here >= before) & (here >= after)
-    hill &= before + here + after >= LINE_SHARE * max(counts.sum(), 1.0)
-    return int(np.argmax(hill)) + 1
+    rows, cols = np.nonzero(mask)
+    across = np.minimum(
+        run_lengths(mask)[rows, cols], run_lengths(mask.T).T[rows, cols]
+    )
+    bins = int(widest_px) + 4
+    across = np.minimum(across, bins - 2)
+    table = np.bincount(
+        parts.labels[rows, cols] * bins + across, minlength=parts.count * bins
+    ).reshape(-1, bins)
+    total = 0.0
+    for _ in range(2):
+        # A width and its two neighbours: lines are a pixel thicker here and there.
+        near = table.copy()
+        near[:, 1:] += table[:, :-1]
+        near[:, :-1] += table[:, 1:]
+        best = near.argmax(axis=1)
+        total = total + near[np.arange(len(near)), best]
+        for offset in (-1, 0, 1):
+            table[np.arange(len(table)), np.clip(best + offset, 0, bins - 1)] = 0
+    return np.asarray(total / parts.area, dtype=np.float64)
+
+
+def line_thickness(ink: ByteArray, thickest_px: float) -> int:
+    """Return the thickness of most of the drawing's lines, px, at least 1.
+
+    Parameters
+    ----------
+    ink : ndarray of uint8, shape (H, W)
+        Ink.
+    thickest_px : float
+        Strokes thicker than this are no lines, px.
+    """
+    longest = int(thickest_px)
+    lengths = np.zeros(longest + 1)
+    for view in (ink, ink.T):
+        runs = column_runs(view)
+        index = np.flatnonzero((runs.value == 1) & (runs.length <= longest))
+        thick, length = _strips(runs, index)
+        lengths += np.bincount(thick, length, longest + 1)
+    below = np.cumsum(lengths)
+    return max(int(np.searchsorted(below, LINE_QUANTILE * below[-1])), 1)
 
 
 def strip_votes(mask: ByteArray, value: int, max_px: int, line_px: int) -> FloatArray:
@@ -96,7 +152,9 @@ def strip_votes(mask: ByteArray, value: int, max_px: int, line_px: int) -> Float
         index = index[(index > 1) & (index < len(runs.length) - 2)]
         if value == 0:
             index = index[_between_lines(runs, index, line_px)]
-        votes += _strip_lengths(runs, index, max_px)
+        thick, length = _strips(runs, index)
+        # Long strips say more than many short ones.
+        votes += np.bincount(thick, length**2, max_px + 1)
     return votes
 
 
@@ -112,19 +170,21 @@ def _between_lines(runs: Runs, index: IntArray, line_px: int) -> BoolArray:
     return flags
 
 
-def _strip_lengths(runs: Runs, index: IntArray, max_px: int) -> FloatArray:
-    """Sum squared lengths of strips, by thickness, shape (max_px + 1,)."""
-    if len(index) == 0:
-        return np.zeros(max_px + 1)
+def _strips(runs: Runs, index: IntArray) -> tuple[IntArray, FloatArray]:
+    """Join equal runs of neighbouring columns; thickness and length of the long ones.
+
+    Returns
+    -------
+    thick : ndarray of int64, shape (M,)
+    length : ndarray of float64, shape (M,)
+    """
     column, start, thick = runs.column[index], runs.start[index], runs.length[index]
     order = np.lexsort((column, thick, start))
     column, start, thick = column[order], start[order], thick[order]
     begins = np.ones(len(order), dtype=bool)
     begins[1:] = (np.diff(start) != 0) | (np.diff(thick) != 0)
     begins[1:] |= np.diff(column) > SAME_STRIP_GAP_PX
-    length = np.bincount(np.cumsum(begins) - 1)
+    length = np.bincount(np.cumsum(begins) - 1) if len(order) else np.zeros(0, np.int64)
     thick = thick[begins]
-    slender = length >= np.maximum(12, 3 * thick)
-    squared = (length[slender] ** 2).astype(np.float64)
-    votes = np.bincount(thick[slender], squared, max_px + 1)
-    return np.asarray(votes, dtype=np.float64)
+    long = length >= np.maximum(SHORTEST_STRIP_PX, 3 * thick)
+    return thick[long], length[long].astype(np.float64)
