@@ -6,9 +6,10 @@ import numpy as np
 
 from occsim._types import ByteArray, FloatArray
 from occsim.drawing import Drawing
+from occsim.walls.arcs import find_swings
 from occsim.walls.bands import textured, wall_bands
 from occsim.walls.connect import connected_walls, line_walls
-from occsim.walls.doors import find_swings, leaves
+from occsim.walls.doors import leaves
 from occsim.walls.gaps import find_gaps
 from occsim.walls.hollow import gap_limits, hollow_walls
 from occsim.walls.ink import darkness, find_fills, find_ink
