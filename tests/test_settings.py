@@ -9,6 +9,7 @@ from occsim import BehindHit, Region, UpdateRule
 from occsim.nsga2 import Elitism
 from pages._ui.choices import (
     Drawings,
+    Exploring,
     Fineness,
     FrontAxes,
     Objectives,
@@ -49,6 +50,7 @@ ANY_SETTINGS = st.builds(
     fineness=st.sampled_from(Fineness),
     drawings=st.sampled_from(Drawings),
     picture=st.sampled_from(Picture),
+    exploring=st.sampled_from(Exploring),
     axes=st.sampled_from(FrontAxes),
     objectives=st.sampled_from(Objectives),
     elitism=st.sampled_from(Elitism),

@@ -35,6 +35,14 @@ class Picture(Enum):
     CHANGE = "change"
 
 
+class Exploring(Enum):
+    """What the Pareto explorer shows."""
+
+    ONE = "one"
+    SEARCH = "search"
+    ALL = "all"
+
+
 class FrontAxes(Enum):
     """In which quantities a front is drawn."""
 

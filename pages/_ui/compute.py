@@ -10,6 +10,7 @@ import os
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 import streamlit as st
 
@@ -22,12 +23,18 @@ from occsim import (
     load_sample,
     truth_cells,
 )
+from occsim._types import FloatArray
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.drawing import Drawing
 from occsim.formats.image_files import drawing_png, png
 from occsim.formats.replay import MAX_ENTRIES, pack_replay
 from occsim.imageops import estimate_tilt
-from occsim.pareto import surface_front
+from occsim.nsga2 import (
+    interpolated_objective,
+    nsga2_generations,
+    surface_objective,
+)
+from occsim.pareto import hypervolume, reference_point, surface_front
 from occsim.sensor import most_cells_in_view
 from occsim.sweep import PriorSweep, prior_surface, sweep_surface
 from occsim.walls import (
@@ -38,6 +45,7 @@ from occsim.walls import (
     detect_walls,
 )
 from occsim.world import wall_cells
+from pages._ui.choices import Objectives
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, apart_from_prior, with_changes
 
@@ -164,6 +172,54 @@ def sweep(of: Run, values: list[float]) -> PriorSweep:
     """The exact scores of every pair of some values."""
     with core():
         return sweep_surface(of.surface, values, values)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SearchStep:
+    """One generation of a search.
+
+    ``real`` holds precision and recall of each pair's own map; ``seen`` what the
+    search was told instead, None where that is the same. ``share`` is the hypervolume
+    of the real scores as a share of the exact front's.
+    """
+
+    number: int
+    seen: FloatArray | None
+    real: FloatArray
+    share: float
+
+
+def search_key(of: Run, settings: Settings) -> tuple[object, ...]:
+    """What a search depends on: with equal keys it takes the same course."""
+    names = ("objectives", "elitism", "pop_size", "n_gen", "seed")
+    own = tuple(getattr(settings, name) for name in names)
+    return of.building.digest, of.settings, own
+
+
+def search(of: Run, settings: Settings) -> Iterator[SearchStep]:
+    """The generations of a search for the front, each as soon as it is there."""
+    exact, ref = surface_objective(of.surface), reference_point(of.front)
+    interpolated = settings.objectives is Objectives.INTERPOLATED
+    tenths = [round(0.1 * i, 1) for i in range(1, 11)]
+    table = interpolated_objective(sweep(of, tenths))
+    generations = nsga2_generations(
+        table if interpolated else exact,
+        pop_size=settings.pop_size,
+        n_gen=settings.n_gen,
+        seed=settings.seed,
+        elitism=settings.elitism,
+    )
+    whole = of.front.hypervolume(ref)
+    while True:
+        # One generation at a time: others get their turn in between.
+        with core():
+            generation = next(generations, None)
+            if generation is None:
+                return
+            real = exact(generation.population)
+            share = hypervolume(real[:, 0], real[:, 1], ref) / whole
+        seen = generation.objectives if interpolated else None
+        yield SearchStep(generation.number, seen, real, share)
 
 
 # --- Your building: walls and pictures ------------------------------------------------

@@ -117,9 +117,9 @@ def rows_figure(
     figure.update_yaxes(title_text="p_wall", col=1)
     figure.update_annotations(font_size=12)
     figure.update_layout(
-        height=ROW_PX * len(rows) + 140,
-        margin={"l": 48, "r": 8, "t": 60, "b": 80},
-        legend={"orientation": "h", "y": 1.0, "yanchor": "bottom", "yref": "container"},
+        height=ROW_PX * len(rows) + 160,
+        margin={"l": 48, "r": 8, "t": 60, "b": 100},
+        legend={"orientation": "h", "y": 1.0, "yanchor": "top", "yref": "container"},
         uirevision="rows",
         hovermode=False,
     )
@@ -139,7 +139,7 @@ def _column_bar(unit: str, column: int, n_columns: int) -> dict:
         "x": centre,
         "y": 0,
         "yanchor": "top",
-        "ypad": 45,
+        "ypad": 62,
     }
 
 
@@ -181,8 +181,13 @@ def _mark(pairs: list[Pair], name: str, marker: dict) -> go.Scatter:
 
 
 def target_layer(view: SurfaceView) -> go.Scatter:
-    """Invisible points over a surface: a heatmap itself cannot be clicked."""
+    """What of a surface can be pointed at and clicked."""
     values, words = view.targets()
+    return pair_targets(values, [f"{view.objective.value} {text}" for text in words])
+
+
+def pair_targets(values: list[float], words: list[str]) -> go.Scatter:
+    """Invisible points over a heatmap, row by row: it cannot be clicked itself."""
     return go.Scatter(
         x=values * len(values),
         y=[p_wall for p_wall in values for _ in values],
@@ -191,26 +196,28 @@ def target_layer(view: SurfaceView) -> go.Scatter:
         marker={"opacity": 0, "size": 6},
         selected={"marker": {"opacity": 0}},
         unselected={"marker": {"opacity": 0}},
-        hovertemplate=(
-            "p_wall %{y:.2f}<br>p_space %{x:.2f}<br>"
-            f"{view.objective.value} %{{text}}<extra></extra>"
-        ),
+        hovertemplate="p_wall %{y:.2f}<br>p_space %{x:.2f}<br>%{text}<extra></extra>",
         showlegend=False,
     )
 
 
 def square_axes(figure: go.Figure, view: SurfaceView) -> None:
-    """p_space to the right and p_wall up, one as long as the other."""
+    """The axes of a surface, and what lies under it."""
     half = (view.values[1] - view.values[0]) / 2
     low, high = LOW - half, HIGH + half
-    shared = {"constrain": "domain", "showgrid": False, "zeroline": False}
-    shared |= {"range": [low, high], "fixedrange": True, "tickvals": TICKS}
-    shared |= {"title_standoff": 4, "ticks": ""}
+    square_axes_of(figure, low, high)
+    figure.update_layout(xaxis_showgrid=False, yaxis_showgrid=False)
+    figure.add_layout_image(hatch_image(low, high))
+
+
+def square_axes_of(figure: go.Figure, low: float, high: float) -> None:
+    """p_space to the right and p_wall up, one as long as the other."""
+    shared = {"constrain": "domain", "zeroline": False, "title_standoff": 4}
+    shared |= {"range": [low, high], "fixedrange": True, "tickvals": TICKS, "ticks": ""}
     figure.update_xaxes(title_text="p_space", constraintoward="left", **shared)
     figure.update_yaxes(
         title_text="p_wall", constraintoward="top", scaleanchor="x", **shared
     )
-    figure.add_layout_image(hatch_image(low, high))
 
 
 def hatch_image(low: float, high: float) -> dict:

@@ -26,6 +26,11 @@ def points(value: float) -> str:
     return DASH if value != value else f"{100 * value:+.1f}"
 
 
+def tolerance(value: float) -> str:
+    """A tolerance of scores in percentage points; a dash where it is undefined."""
+    return DASH if value != value else f"{100 * value:.1f} points"
+
+
 def score_line(scores: Scores) -> str:
     """Precision, recall and F2 of a map."""
     return (
@@ -44,14 +49,13 @@ def difference_line(scores: Scores, reference: Scores) -> str:
 
 def pair_text(p_wall: float, p_space: float) -> str:
     """A pair as the source writes it, to four digits."""
-    return f"(p_wall, p_space) = ({p_wall:.4g}, {p_space:.4g})"
+    return f"({p_wall:.4g}, {p_space:.4g})"
 
 
 def chosen_map(run: Run) -> None:
-    """The map of the chosen pair, at once."""
-    kind = state.settings().picture
-    prior = Prior(p_wall=state.pair()[0], p_space=state.pair()[1])
-    map_of(run, prior, pair_text(*state.pair()), kind)
+    """The map of the chosen pair."""
+    title = f"(p_wall, p_space) = {pair_text(*state.pair())}"
+    map_of(run, state.prior(), title, state.settings().picture)
 
 
 def map_of(run: Run, prior: Prior, title: str, kind: Picture) -> None:
@@ -60,6 +64,16 @@ def map_of(run: Run, prior: Prior, title: str, kind: Picture) -> None:
     st.image(
         run.picture(prior, kind),
         width="stretch",
-        alt=f"Map of {run.building.title} with {title}",
+        alt=f"Map of {run.building.title}; {title}",
     )
     st.markdown(score_line(run.scores(prior)))
+
+
+def against_uninformative(run: Run, prior: Prior) -> None:
+    """How far a map's scores lie from those of the map without a drawing."""
+    if prior == Prior.uninformative():
+        st.caption("The map without a drawing.")
+        return
+    reference = run.scores(Prior.uninformative())
+    words = difference_line(run.scores(prior), reference)
+    st.caption(f"Against the uninformative map, in points: {words}.")

@@ -44,3 +44,5 @@ SCORE_SCALE = "cividis"
 # The reference drawings a to e, and whatever else is overlaid in one chart.
 SERIES = ["#0072B2", "#D55E00", "#009E73", "#AA4499", "#8a7600", "#555555"]
 MARK = "#cc3377"
+# Lines and words that guide the eye, readable on light and on dark.
+GUIDE = "#808495"

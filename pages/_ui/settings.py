@@ -14,6 +14,7 @@ from occsim import BehindHit, Prior, Region, Sensor, UpdateRule
 from occsim.nsga2 import Elitism
 from pages._ui.choices import (
     Drawings,
+    Exploring,
     Fineness,
     FrontAxes,
     Objectives,
@@ -64,6 +65,7 @@ class Settings:
     fineness: Fineness = Fineness.FIFTIETH
     drawings: Drawings = Drawings.THIS
     picture: Picture = Picture.BELIEF
+    exploring: Exploring = Exploring.ONE
     axes: FrontAxes = FrontAxes.SCORES
     min_recall: float = 0.4
     tolerance: float = 0.05
@@ -181,7 +183,15 @@ TABLE: Mapping[str, Setting] = {
     "drawings": Setting(
         label="Drawings", help="The chosen drawing, or all five reference drawings."
     ),
-    "picture": Setting(label="Maps show", help="What the small maps show."),
+    "picture": Setting(
+        label="Maps show",
+        help="The probability of free; where walls were found, invented and missed; or "
+        "how each cell's probability of free differs from the uninformative map's.",
+    ),
+    "exploring": Setting(
+        label="Explore",
+        help="One front and its maps; the source's search for it; or all drawings.",
+    ),
     "axes": Setting(
         label="Axes",
         help="Precision and recall, or the quantities that the source minimises.",
@@ -250,7 +260,10 @@ CHOICES: Mapping[Enum, str] = {
     Drawings.ALL: "All five",
     Picture.BELIEF: "Probability of free",
     Picture.ERRORS: "Errors",
-    Picture.CHANGE: "Change from the uninformative map",
+    Picture.CHANGE: "Change",
+    Exploring.ONE: "One front",
+    Exploring.SEARCH: "Search by NSGA-II",
+    Exploring.ALL: "All drawings",
     FrontAxes.SCORES: "precision, recall",
     FrontAxes.INVERSE: "1/precision, 1/recall",
     Objectives.INTERPOLATED: "the source's table, interpolated",

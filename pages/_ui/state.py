@@ -12,7 +12,7 @@ from urllib.parse import urlencode, urlsplit, urlunsplit
 
 import streamlit as st
 
-from occsim import OccsimError, Trajectory, load_sample, sample_names
+from occsim import OccsimError, Prior, Trajectory, load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
 from pages._ui.board import BoardDocument
@@ -186,6 +186,17 @@ def choose_pair(p_wall: float, p_space: float) -> None:
     change(p_wall=p_wall, p_space=p_space, uninformative=False)
 
 
+def prior() -> Prior:
+    """The prior of the chosen pair, whether or not the player leaves it out."""
+    return Prior(p_wall=settings().p_wall, p_space=settings().p_space)
+
+
+def bind_index(key: str, index: int, choose: Callable[[int], None]) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` of a widget that steps through a list."""
+    st.session_state[key] = index
+    return {"key": key, "on_change": lambda: choose(st.session_state[key])}
+
+
 def bind_chart(key: str) -> dict[str, Any]:
     """Return what makes a click in a chart choose the prior pair of a point.
 
@@ -196,6 +207,17 @@ def bind_chart(key: str) -> dict[str, Any]:
         "on_select": lambda: _take_click(key),
         "selection_mode": "points",
     }
+
+
+def keep_search(key: object, steps: list[compute.SearchStep]) -> None:
+    """Keep the generations of a search so far."""
+    st.session_state.search = key, steps
+
+
+def kept_search(key: object) -> list[compute.SearchStep]:
+    """The generations kept of this search; none of another."""
+    kept, steps = st.session_state.get("search", (None, []))
+    return steps if kept == key else []
 
 
 def _take_click(key: str) -> None:

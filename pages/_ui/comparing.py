@@ -1,0 +1,129 @@
+"""The Pareto explorer for all drawings: their fronts, and pairs good for all."""
+
+import streamlit as st
+
+from occsim import Prior, PriorSweep, sample_names
+from occsim._types import IntArray
+from occsim.pareto import ParetoFront, near_front
+from pages._ui import compute, controls, front_figures, fronts, maps, state, surfaces
+from pages._ui.front_figures import DrawingFront
+from pages._ui.runs import SOURCE_PAIR, Run
+from pages._ui.sweeping import CONFIG
+
+STEP = 0.02
+TOLERANCE_STEP, MAX_TOLERANCE = 0.005, 0.5
+
+
+def all_drawings(run: Run) -> None:
+    """Fronts overlaid as in Fig. 4.7, and the region of pairs good for all of them."""
+    settings = state.settings()
+    runs = {name: compute.reference_run(name, settings) for name in sample_names()}
+    if state.choice() == state.OWN:
+        runs["yours"] = run
+    _fronts_and_region(runs)
+
+
+@st.fragment
+def _fronts_and_region(runs: dict[str, Run]) -> None:
+    settings = state.settings()
+    values = surfaces.axis(STEP)
+    sweeps = [compute.sweep(run, values) for run in runs.values()]
+    all_fronts = [run.front for run in runs.values()]
+    overlay, region = st.columns([5, 4], gap="medium")
+    with overlay:
+        _overlay(runs)
+        controls.segments("axes")
+    with region:
+        count = near_counts(sweeps, all_fronts, settings.tolerance)
+        figure = front_figures.region_figure(count, values, len(runs), state.pair())
+        st.plotly_chart(figure, config=CONFIG, **state.bind_chart("region"))
+        controls.slider("tolerance")
+    st.markdown(verdict(count.tolist(), runs, settings.tolerance))
+    _smallest(sweeps, all_fronts, values)
+    st.markdown(table(runs, state.prior()))
+
+
+def near_counts(
+    sweeps: list[PriorSweep], all_fronts: list[ParetoFront], tolerance: float
+) -> IntArray:
+    """For how many drawings each pair is within a tolerance of the front."""
+    near = [
+        near_front(sweep, front, tolerance).astype("int64")
+        for sweep, front in zip(sweeps, all_fronts, strict=True)
+    ]
+    return sum(near[1:], start=near[0])
+
+
+def _overlay(runs: dict[str, Run]) -> None:
+    settings = state.settings()
+    source = Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1])
+    drawn = []
+    for name, run in runs.items():
+        at = [run.scores(prior) for prior in (source, state.prior())]
+        pairs = [(scores.precision, scores.recall) for scores in at]
+        drawn.append(DrawingFront(name, run.front, *pairs))
+    figure = front_figures.overlay_figure(drawn, settings.axes, settings.min_recall)
+    st.plotly_chart(
+        figure, config=CONFIG, **state.bind_chart(f"fronts_{settings.axes.value}")
+    )
+
+
+def verdict(count: list[list[int]], runs: dict[str, Run], tolerance: float) -> str:
+    """How many pairs are good for every drawing, and whether the source's is."""
+    flat = [n for row in count for n in row]
+    share = sum(n == len(runs) for n in flat) / len(flat)
+    gap = worst_gap(runs, Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1]))
+    inside = "is one of them" if gap <= tolerance else "is not one of them"
+    return (
+        f"**{maps.percent(share)}** of all pairs are within {100 * tolerance:.0f} "
+        f"points of every drawing's front. The source's (0.2, 0.9) {inside}: it needs "
+        f"a tolerance of {maps.tolerance(gap)}; the chosen pair needs "
+        f"{maps.tolerance(worst_gap(runs, state.prior()))}."
+    )
+
+
+def worst_gap(runs: dict[str, Run], prior: Prior) -> float:
+    """The tolerance at which a prior is near every front; NaN if at none."""
+    gaps = [fronts.distance(run.front, run.scores(prior)) for run in runs.values()]
+    return float("nan") if any(gap != gap for gap in gaps) else max(gaps)
+
+
+def _smallest(
+    sweeps: list[PriorSweep], all_fronts: list[ParetoFront], values: list[float]
+) -> None:
+    """The pair that serves all drawings at the smallest tolerance, to be chosen."""
+    n_steps = round(MAX_TOLERANCE / TOLERANCE_STEP)
+    for step in range(n_steps + 1):
+        tolerance = step * TOLERANCE_STEP
+        rows = near_counts(sweeps, all_fronts, tolerance).tolist()
+        pairs = [
+            (p_wall, p_space)
+            for p_wall, row in zip(values, rows, strict=True)
+            for p_space, n in zip(values, row, strict=True)
+            if n == len(sweeps)
+        ]
+        if pairs:
+            break
+    else:
+        st.info("No pair comes near the fronts of all drawings, at any tolerance.")
+        return
+    middle = pairs[len(pairs) // 2]
+    st.button(
+        f"Choose {maps.pair_text(*middle)}: near every front from a tolerance of "
+        f"{maps.tolerance(tolerance)} on",
+        on_click=state.choose_pair,
+        args=middle,
+    )
+
+
+def table(runs: dict[str, Run], prior: Prior) -> str:
+    """The scores of one prior on every drawing."""
+    lines = ["| Drawing | Precision | Recall | F2 | Short of its front by |"]
+    lines.append("|---|---|---|---|---|")
+    for name, run in runs.items():
+        scores = run.scores(prior)
+        cells = [scores.precision, scores.recall, scores.f2]
+        cells.append(fronts.distance(run.front, scores))
+        words = " | ".join(maps.percent(value) for value in cells)
+        lines.append(f"| {name}: {run.building.title} | {words} |")
+    return "\n".join(lines)

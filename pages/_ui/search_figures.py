@@ -1,0 +1,196 @@
+"""Plotly figures of a search: its population over the exact front, by generation."""
+
+from typing import Any
+
+import plotly.graph_objects as go
+from plotly.subplots import make_subplots
+
+from occsim.pareto import ParetoFront
+from pages._ui import palette
+from pages._ui.choices import FrontAxes
+from pages._ui.compute import SearchStep
+from pages._ui.figures import Pair
+from pages._ui.front_figures import WORDS, front_points, front_steps, place
+from pages._ui.fronts import scores_at
+
+SEARCH_PX = 540
+BELOW = -0.17
+"""Where the buttons stand, as a share of the plot's height below it."""
+FRAME_MS = 120
+POPULATION = palette.SERIES[1]
+# Traces that a frame replaces: promised, real, and the mark on the curve.
+MOVING = [2, 3, 5]
+
+
+def still_figure(
+    steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
+) -> go.Figure:
+    """The last generation over the exact front, and the hypervolume so far."""
+    figure = make_subplots(rows=2, row_heights=[0.72, 0.28], vertical_spacing=0.16)
+    color = palette.SERIES[0]
+    for trace in (front_steps(front, axes, color, "exact front"), _dots(front, axes)):
+        figure.add_trace(trace, row=1, col=1)
+    for trace in _population(steps[-1] if steps else None, axes):
+        figure.add_trace(trace, row=1, col=1)
+    figure.add_trace(_curve(steps), row=2, col=1)
+    figure.add_trace(_curve_mark(steps[-1] if steps else None), row=2, col=1)
+    _frame(figure, steps, front, axes)
+    return figure
+
+
+def replay_figure(
+    steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
+) -> go.Figure:
+    """The same with a frame for every generation, a slider and two buttons."""
+    figure = still_figure(steps, front, axes)
+    if not steps:
+        return figure
+    figure.frames = [
+        go.Frame(
+            name=str(step.number),
+            data=[*_population(step, axes), _curve_mark(step)],
+            traces=MOVING,
+        )
+        for step in steps
+    ]
+    figure.update_layout(updatemenus=[_buttons()], sliders=[_slider(steps)])
+    return figure
+
+
+def _dots(front: ParetoFront, axes: FrontAxes) -> go.Scatter:
+    dots = front_points(front, axes, 0.0)
+    return dots.update(marker_size=9, hoverinfo="skip", hovertemplate=None)
+
+
+def _population(step: SearchStep | None, axes: FrontAxes) -> list[go.Scatter]:
+    """What the search was promised, and what the maps of its pairs score."""
+    if step is None:
+        return [go.Scatter(), go.Scatter()]
+    promised, real = step.seen, step.real
+    traces = []
+    for scores, symbol, name in (
+        (promised, "triangle-up-open", "population, as the search sees it"),
+        (real, "triangle-up", "population"),
+    ):
+        if scores is None:
+            traces.append(go.Scatter(x=[], y=[], name=name, showlegend=False))
+            continue
+        x, y = place(axes, scores[:, 0], scores[:, 1])
+        marker = {"symbol": symbol, "size": 7, "color": POPULATION, "opacity": 0.8}
+        traces.append(
+            go.Scatter(
+                x=x.astype("float32"),
+                y=y.astype("float32"),
+                mode="markers",
+                marker=marker,
+                name=name,
+                hoverinfo="skip",
+            )
+        )
+    return traces
+
+
+def _curve(steps: list[SearchStep]) -> go.Scatter:
+    return go.Scatter(
+        x=[step.number for step in steps],
+        y=[100.0 * step.share for step in steps],
+        mode="lines",
+        line={"color": POPULATION, "width": 2},
+        showlegend=False,
+        hovertemplate="generation %{x}: %{y:.2f} %<extra></extra>",
+    )
+
+
+def _curve_mark(step: SearchStep | None) -> go.Scatter:
+    return go.Scatter(
+        x=[step.number] if step else [],
+        y=[100.0 * step.share] if step else [],
+        mode="markers",
+        marker={"symbol": "triangle-up", "size": 11, "color": POPULATION},
+        showlegend=False,
+        hoverinfo="skip",
+    )
+
+
+def _frame(
+    figure: go.Figure, steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
+) -> None:
+    titles = WORDS[axes]
+    ends = _ends(steps, front, axes)
+    figure.update_xaxes(title_text=titles[0], range=ends[0], row=1, zeroline=False)
+    figure.update_yaxes(title_text=titles[1], range=ends[1], row=1, zeroline=False)
+    last = max(steps[-1].number if steps else 1, 2)
+    figure.update_xaxes(title_text="generation", range=[0.5, last + 0.5], row=2)
+    low = min([100.0 * step.share for step in steps if step.share == step.share] + [95])
+    figure.update_yaxes(
+        title_text="hypervolume, %", range=[low - 2, 101.5], row=2, zeroline=False
+    )
+    words = {"text": "exact front", "font_size": 11}
+    line = {"dash": "dot", "width": 1, "color": palette.GUIDE}
+    figure.add_hline(100, row=2, col=1, line=line, annotation=words)
+    figure.update_layout(
+        height=SEARCH_PX,
+        margin={"l": 56, "r": 8, "t": 28, "b": 8},
+        legend={"orientation": "h", "y": 1.0, "yanchor": "bottom", "x": 0},
+        uirevision="search",
+    )
+
+
+def _ends(
+    steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
+) -> tuple[Pair, Pair]:
+    """Ends of the axes, the same for all generations: those of the exact front."""
+    places = [place(axes, precision, recall) for precision, recall in scores_at(front)]
+    ends = []
+    for which in range(2):
+        values = [where[which] for where in places]
+        pad = 0.25 * (max(values) - min(values)) or 0.05 * max(values)
+        ends.append((min(values) - pad, max(values) + pad))
+    return ends[0], ends[1]
+
+
+def _buttons() -> dict[str, Any]:
+    timing = {"frame": {"duration": FRAME_MS}, "transition": {"duration": 0}}
+    play = {"args": [None, {**timing, "mode": "immediate"}]}
+    pause = {"args": [[None], {"mode": "immediate", "frame": {"duration": 0}}]}
+    return {
+        "type": "buttons",
+        "direction": "left",
+        "showactive": False,
+        "x": 0,
+        "y": BELOW,
+        "xanchor": "left",
+        "yanchor": "top",
+        "bgcolor": palette.UNSEEN,
+        "font": {"color": "black"},
+        "buttons": [
+            {"label": "Play", "method": "animate", **play},
+            {"label": "Pause", "method": "animate", **pause},
+        ],
+    }
+
+
+def _slider(steps: list[SearchStep]) -> dict[str, Any]:
+    jump = {"mode": "immediate", "frame": {"duration": 0}}
+    return {
+        "active": len(steps) - 1,
+        "y": BELOW,
+        "pad": {"t": 36},
+        "ticklen": 0,
+        "minorticklen": 0,
+        # The labels of the steps are for the text above the slider alone.
+        "font": {"size": 1, "color": "rgba(0,0,0,0)"},
+        "currentvalue": {
+            "prefix": "generation ",
+            "xanchor": "right",
+            "font": {"size": 13, "color": palette.GUIDE},
+        },
+        "steps": [
+            {
+                "label": str(step.number),
+                "method": "animate",
+                "args": [[str(step.number)], jump],
+            }
+            for step in steps
+        ],
+    }
