@@ -9,6 +9,7 @@ import numpy.typing as npt
 from occsim._types import FloatArray, IntArray, Progress
 from occsim.errors import ParameterError
 from occsim.grid import Grid
+from occsim.rays.cull import without_hidden
 from occsim.rays.faces import SideFaces, wall_faces
 from occsim.rays.outline import trace_outline
 from occsim.rays.reach import View, seen_faces
@@ -26,9 +27,13 @@ from occsim.trajectory import Trajectory
 from occsim.world import World
 
 COUNTERS_AT_ONCE = 1 << 19
+FACES_AT_ONCE = 1 << 18
 READINGS_AT_ONCE = 1 << 9
-"""Readings are taken in batches of so many cells and readings: work that stays in the
-processor's cache is faster, and memory does not grow with the trajectory."""
+"""Readings are taken in batches of so many cells, faces and readings: work that stays
+in the processor's cache is faster, and memory does not grow with the trajectory."""
+
+MANY_FACES = 100
+"""Faces in view of a reading from which on it pays to look for hidden ones first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +152,7 @@ def collect_evidence(
         )
     faces = wall_faces(world.occupied)
     parts = []
-    for batch in _batches(len(trajectory), sensor, grid):
+    for batch in _batches(len(trajectory), sensor, grid, faces):
         view = View.of(trajectory.poses[batch], sensor)
         parts.append(_read(world, faces, view, sensor, grid))
         if on_progress is not None:
@@ -161,11 +166,18 @@ def collect_evidence(
     )
 
 
-def _batches(n_readings: int, sensor: Sensor, grid: Grid) -> list[slice]:
-    """Return slices of readings whose counters together stay within bounds."""
-    across = int(min(2.0 * sensor.range_px / grid.cell_px, max(grid.shape))) + 4
+def _batches(
+    n_readings: int, sensor: Sensor, grid: Grid, faces: tuple[SideFaces, ...]
+) -> list[slice]:
+    """Return slices of readings that together stay within bounds of memory."""
+    reach_px = 2.0 * sensor.range_px
+    across = int(min(reach_px / grid.cell_px, max(grid.shape))) + 4
     window = min(across, grid.n_rows) * min(across, grid.n_cols)
-    size = int(np.clip(COUNTERS_AT_ONCE // window, 1, READINGS_AT_ONCE))
+    # On average a reading has its share of the faces in reach, by area.
+    share = min(reach_px / grid.height_px, 1.0) * min(reach_px / grid.width_px, 1.0)
+    n_faces = int(share * sum(side.position.size for side in faces)) + 1
+    size = min(COUNTERS_AT_ONCE // window, FACES_AT_ONCE // n_faces, READINGS_AT_ONCE)
+    size = max(size, 1)
     starts = range(0, n_readings, size)
     return [slice(start, min(start + size, n_readings)) for start in starts]
 
@@ -180,6 +192,8 @@ def _read(
     """Return one batch of readings: entries of each, their cells and log-odds."""
     windows = windows_around(view, grid)
     seen = seen_faces(faces, world.occupied, view)
+    if seen.reading.size > MANY_FACES * view.size:
+        seen = without_hidden(seen, view)
     outline = trace_outline(seen, view)
     clear = sensor.clear_no_hit
     n_empty = count_pixels(

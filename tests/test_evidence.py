@@ -79,6 +79,7 @@ def worlds(draw):
     poses=st.lists(st.tuples(PLACES, PLACES, HEADINGS), min_size=1, max_size=4),
     sensor=SENSORS,
     cell_px=st.integers(1, 6),
+    many_faces=st.sampled_from([0, 100]),
 )
 @example(
     # Standing on the corner of four pixels, three of them wall.
@@ -86,6 +87,23 @@ def worlds(draw):
     poses=[(1.0, 1.0, 0.0)],
     sensor=Sensor(range_px=3.0, fov_rad=2 * np.pi),
     cell_px=1,
+    many_faces=100,
+)
+@example(
+    # Half a turn without a hit: only the own pixel is known.
+    world=World(occupied=np.array([[False, False]])),
+    poses=[(1.5, 0.5, 0.0)] * 4,
+    sensor=Sensor(range_px=0.5, fov_rad=np.pi, clear_no_hit=False),
+    cell_px=1,
+    many_faces=100,
+)
+@example(
+    # A full turn has a seam straight behind the robot, here through a pixel's centre.
+    world=World(occupied=np.array([[True]])),
+    poses=[(0.51, 0.51, np.pi / 4)],
+    sensor=Sensor(range_px=0.5, fov_rad=2 * np.pi),
+    cell_px=1,
+    many_faces=100,
 )
 @example(
     # A diagonal line one pixel wide is closed: the ray through its joints is stopped.
@@ -93,10 +111,16 @@ def worlds(draw):
     poses=[(0.5, 0.5, np.pi / 4)],
     sensor=Sensor(range_px=9.0),
     cell_px=1,
+    many_faces=100,
 )
-def test_every_reading_is_that_of_the_naive_loop(world, poses, sensor, cell_px):
+def test_every_reading_is_that_of_the_naive_loop(
+    world, poses, sensor, cell_px, many_faces
+):
     trajectory = Trajectory(poses=np.array(poses))
-    evidence = collect_evidence(world, trajectory, sensor, world.grid(cell_px))
+    with pytest.MonkeyPatch.context() as patch:
+        # At 0, hidden faces are looked for first, as in worlds of very many faces.
+        patch.setattr("occsim.evidence.MANY_FACES", many_faces)
+        evidence = collect_evidence(world, trajectory, sensor, world.grid(cell_px))
     assert_same_readings(evidence, naive_evidence(world, trajectory, sensor, cell_px))
 
 
@@ -162,6 +186,21 @@ def test_the_order_of_scans_does_not_matter_for_totals():
     (sums, counts), (sums_2, counts_2) = (log.totals() for log in logs)
     np.testing.assert_allclose(sums, sums_2, atol=1e-12)
     np.testing.assert_array_equal(counts, counts_2)
+
+
+def test_hidden_faces_are_left_out_without_changing_a_reading():
+    # Speckle on a larger scale than the naive loop can follow.
+    rng = np.random.default_rng(8)
+    world = World(occupied=rng.random((150, 150)) < 0.05)
+    trajectory = Trajectory(poses=poses_in(world, 20, seed=8))
+    sensor = Sensor(range_px=90.0, fov_rad=5.0, behind_hit=BehindHit.UNSEEN)
+    logs = []
+    for many_faces in (0, 10**9):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("occsim.evidence.MANY_FACES", many_faces)
+            log = collect_evidence(world, trajectory, sensor, world.grid(4))
+            logs.append(dense(log))
+    np.testing.assert_array_equal(*logs)
 
 
 def test_batches_change_nothing_and_report_progress(monkeypatch):

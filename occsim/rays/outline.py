@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occsim._types import FloatArray, IntArray
-from occsim.geometry import wrap_angle
+from occsim.geometry import CARDINAL_HEADINGS_RAD, wrap_angle
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SIDE_COS, SIDE_SIN, SeenFaces, View
 
@@ -30,7 +30,8 @@ class Outline:
         Index into the seen faces, or NO_FACE.
     start, end : ndarray of float64, shape (2, P)
         Unit vectors (x, y) of the bearings at which the piece starts and ends. No
-        piece crosses straight up or straight down.
+        piece crosses a cardinal bearing: arcs then only fall or only rise, and no
+        chord comes near the robot.
     """
 
     reading: IntArray
@@ -80,13 +81,12 @@ def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     """Return the intervals between all ends of faces, sorted within each reading."""
     n, k = view.size, faces.reading.size
     edge = np.full(n, view.half)
-    # Straight up and down: there an arc turns from falling to rising lines.
     turns = [
         np.clip(wrap_angle(turn - view.theta), -view.half, view.half)
-        for turn in (-0.5 * np.pi, 0.5 * np.pi)
+        for turn in CARDINAL_HEADINGS_RAD
     ]
     bearing = np.concatenate([-edge, edge, *turns, faces.begin, faces.end])
-    owner = np.concatenate([np.tile(np.arange(n), 4), faces.reading, faces.reading])
+    owner = np.concatenate([np.tile(np.arange(n), 6), faces.reading, faces.reading])
     # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
     order = np.argsort(8.0 * owner + bearing)
     bearing, owner = bearing[order], owner[order]
@@ -98,7 +98,7 @@ def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     left = np.flatnonzero(real)
     begin, end, reading = bearing[left], bearing[left + 1], owner[left]
     middle = 0.5 * (begin + end) + view.theta[reading]
-    first, stop = rank[4 * n : 4 * n + k], rank[4 * n + k :]
+    first, stop = rank[6 * n : 6 * n + k], rank[6 * n + k :]
     return _Intervals(reading, begin, end, np.cos(middle), np.sin(middle), first, stop)
 
 
@@ -133,9 +133,10 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
 
 def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
     """Return the outline with intervals of one face joined to one piece."""
-    reading, right = intervals.reading, intervals.middle_x > 0
+    quadrant = 2 * (intervals.middle_x > 0) + (intervals.middle_y > 0)
+    reading = intervals.reading
     differs = (reading[1:] != reading[:-1]) | (nearest[1:] != nearest[:-1])
-    differs |= right[1:] != right[:-1]
+    differs |= quadrant[1:] != quadrant[:-1]
     first = np.concatenate([[0], np.flatnonzero(differs) + 1])
     last = np.append(first[1:] - 1, reading.size - 1)
     owner = reading[first]

@@ -139,7 +139,7 @@ class Polygons:
     straight : Edges
         Edges that are straight.
     arcs : Edges
-        Edges that run along the reach, none across straight up or straight down.
+        Edges that run along the reach, none across a cardinal bearing.
     """
 
     straight: Edges
@@ -291,14 +291,17 @@ def _crossings(
     edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
     # Bearings ascend clockwise: falling edges (y grows) have the inside on their left,
     # and of the arcs those are the ones on the right.
-    sign = np.where(rows[1] > rows[0], np.int32(-1), np.int32(1))[edge]
+    falls = rows[1] > rows[0]
+    sign = np.where(falls, np.int32(-1), np.int32(1))[edge]
     if is_arc:
         y = row - shift[edge]
         x = -sign * np.sqrt(np.maximum(view.reach**2 - y * y, 0.0))
     else:
+        # From the upper end whichever way it is walked: the two sides of the seam of
+        # a full turn then cancel to the last bit.
+        top = np.where(falls, edges.start, edges.end)
         width, height = edges.end - edges.start
         slope = width / np.where(height == 0.0, 1.0, height)
-        below = row - (shift + edges.start[1])[edge]
-        x = edges.start[0][edge] + below * slope[edge]
+        x = top[0][edge] + (row - (shift + top[1])[edge]) * slope[edge]
     reading = edges.reading[edge]
     return reading, row, x + (view.x[reading] - 0.5), sign
