@@ -2,7 +2,8 @@ from dataclasses import fields
 from enum import Enum
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given
+from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
 from occsim import BehindHit, Region, UpdateRule
@@ -12,6 +13,7 @@ from pages._ui.choices import (
     Exploring,
     Fineness,
     FrontAxes,
+    Handover,
     Objectives,
     Picture,
     Surface,
@@ -52,6 +54,7 @@ ANY_SETTINGS = st.builds(
     picture=st.sampled_from(Picture),
     exploring=st.sampled_from(Exploring),
     axes=st.sampled_from(FrontAxes),
+    handover=st.sampled_from(Handover),
     objectives=st.sampled_from(Objectives),
     elitism=st.sampled_from(Elitism),
     **{name: bounded(name) for name in ("min_recall", "tolerance")},
@@ -59,6 +62,8 @@ ANY_SETTINGS = st.builds(
 )
 
 
+# So many fields take long to draw on a busy machine.
+@hypothesis_settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(ANY_SETTINGS)
 def test_settings_survive_the_round_trip_through_a_link(settings):
     assert decode(encode(settings)) == settings

@@ -55,3 +55,10 @@ class Objectives(Enum):
 
     INTERPOLATED = "interpolated"
     EXACT = "exact"
+
+
+class Handover(Enum):
+    """Which prior pair the guided path hands over."""
+
+    RECOMMENDED = "recommended"
+    CHOSEN = "chosen"

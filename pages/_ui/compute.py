@@ -18,6 +18,7 @@ from occsim import (
     EvidenceLog,
     Grid,
     ParameterError,
+    Prior,
     Sensor,
     collect_evidence,
     load_sample,
@@ -25,6 +26,8 @@ from occsim import (
 )
 from occsim._types import FloatArray
 from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.cost import StepCost
+from occsim.cost import step_costs as timed_steps
 from occsim.drawing import Drawing
 from occsim.formats.image_files import drawing_png, png
 from occsim.formats.replay import MAX_ENTRIES, pack_replay
@@ -36,6 +39,7 @@ from occsim.nsga2 import (
 )
 from occsim.pareto import hypervolume, reference_point, surface_front
 from occsim.sensor import most_cells_in_view
+from occsim.study import StudyCase, StudyDrawing, StudySettings, run_case
 from occsim.sweep import PriorSweep, prior_surface, sweep_surface
 from occsim.walls import (
     MaskComparison,
@@ -52,6 +56,10 @@ from pages._ui.settings import Settings, apart_from_prior, with_changes
 # A class of thirty students on two cores: without this each simulation would be slowed
 # by all others, and everyone would wait for the sum.
 _CORES = threading.BoundedSemaphore(os.cpu_count() or 1)
+
+
+MANY_ENTRIES = 1_000_000
+"""Cell updates of a run beyond which its timing is repeated less often."""
 
 
 @contextmanager
@@ -220,6 +228,28 @@ def search(of: Run, settings: Settings) -> Iterator[SearchStep]:
             share = hypervolume(real[:, 0], real[:, 1], ref) / whole
         seen = generation.objectives if interpolated else None
         yield SearchStep(generation.number, seen, real, share)
+
+
+def step_costs(of: Run, priors: list[Prior]) -> list[StepCost]:
+    """What one mapping step costs with each prior, measured now."""
+    maps = [of.prior_map(prior) for prior in priors]
+    few = of.evidence.cell.size > MANY_ENTRIES
+    with core():
+        return timed_steps(of.evidence, maps, of.settings.rule, 3 if few else 15)
+
+
+def study_case(drawing: StudyDrawing, cell_px: int, of: StudySettings) -> StudyCase:
+    """One drawing at one cell size, swept and searched for its exact front."""
+    key = drawing.name, drawing.building.digest, drawing.sensor
+    return _study_case(key, cell_px, of, drawing)
+
+
+@st.cache_resource(max_entries=128, show_spinner=False)
+def _study_case(
+    key: tuple[object, ...], cell_px: int, of: StudySettings, _drawing: StudyDrawing
+) -> StudyCase:
+    with core():
+        return run_case(_drawing, cell_px, of)
 
 
 # --- Your building: walls and pictures ------------------------------------------------

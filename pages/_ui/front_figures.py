@@ -226,21 +226,33 @@ def overlay_figure(
     drawn: list[DrawingFront], axes: FrontAxes, min_recall: float
 ) -> go.Figure:
     """The fronts of several drawings, as in Fig. 4.7; a click chooses a pair."""
-    figure = go.Figure()
+    figure = study_figure({one.name: one.front for one in drawn}, axes, min_recall)
     points: list[Pair] = []
     for i, one in enumerate(drawn):
-        color, dash = palette.SERIES[i % len(palette.SERIES)], DASHES[i % len(DASHES)]
-        figure.add_trace(front_steps(one.front, axes, color, one.name, dash))
-        dots = front_points(one.front, axes, min_recall)
-        figure.add_trace(dots.update(marker_color=color, marker_size=6))
+        color = palette.SERIES[i % len(palette.SERIES)]
+        points += scores_at(one.front)
         for symbol, scores in (("star", one.source), ("circle-open", one.chosen)):
             if scores[0] > 0.0 and scores[1] > 0.0:
                 points.append(scores)
                 mark = mark_trace(Mark(one.name, *scores, symbol, color), axes)
                 figure.add_trace(mark.update(showlegend=False))
-        points += scores_at(one.front)
-    threshold(figure, axes, min_recall)
     frame_front(figure, axes, points, "overlay")
+    return figure
+
+
+def study_figure(
+    fronts: dict[str, ParetoFront], axes: FrontAxes, min_recall: float
+) -> go.Figure:
+    """The fronts of several drawings, each in its colour and dashes."""
+    figure = go.Figure()
+    for i, (name, front) in enumerate(fronts.items()):
+        color, dash = palette.SERIES[i % len(palette.SERIES)], DASHES[i % len(DASHES)]
+        figure.add_trace(front_steps(front, axes, color, name, dash))
+        dots = front_points(front, axes, min_recall)
+        figure.add_trace(dots.update(marker_color=color, marker_size=6))
+    threshold(figure, axes, min_recall)
+    points = [point for front in fronts.values() for point in scores_at(front)]
+    frame_front(figure, axes, points, "study")
     return figure
 
 

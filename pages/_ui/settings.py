@@ -17,6 +17,7 @@ from pages._ui.choices import (
     Exploring,
     Fineness,
     FrontAxes,
+    Handover,
     Objectives,
     Picture,
     Surface,
@@ -68,6 +69,7 @@ class Settings:
     exploring: Exploring = Exploring.ONE
     axes: FrontAxes = FrontAxes.SCORES
     min_recall: float = 0.4
+    handover: Handover = Handover.RECOMMENDED
     tolerance: float = 0.05
     objectives: Objectives = Objectives.INTERPOLATED
     elitism: Elitism = Elitism.CONTROLLED
@@ -203,6 +205,11 @@ TABLE: Mapping[str, Setting] = {
         help="The source keeps only front points whose recall exceeds 0.40, below "
         "which too much of the building is missing.",
     ),
+    "handover": Setting(
+        label="Prior pair",
+        help="The pair with the highest F2 within set C, or the one chosen by hand on "
+        "this page or another.",
+    ),
     "tolerance": Setting(
         label="Tolerance",
         high=0.3,
@@ -264,6 +271,8 @@ CHOICES: Mapping[Enum, str] = {
     Exploring.ONE: "One front",
     Exploring.SEARCH: "Search by NSGA-II",
     Exploring.ALL: "All drawings",
+    Handover.RECOMMENDED: "Recommended",
+    Handover.CHOSEN: "Chosen by hand",
     FrontAxes.SCORES: "precision, recall",
     FrontAxes.INVERSE: "1/precision, 1/recall",
     Objectives.INTERPOLATED: "the source's table, interpolated",

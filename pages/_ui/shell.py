@@ -49,6 +49,18 @@ LESSONS = (
         "No prior has both the highest precision and the highest recall: these are the "
         "best compromises, and the map that each of them gives.",
     ),
+    Lesson(
+        "pages/7_Best_prior.py",
+        "Best prior",
+        "The whole way for one drawing: from its walls to the prior that serves it "
+        "best, to take away.",
+    ),
+    Lesson(
+        "pages/8_Study.py",
+        "Study",
+        "All reference drawings at the source's three cell sizes, beside what the "
+        "source published.",
+    ),
 )
 
 # Streamlit leaves 6 rem above the first line and much between blocks; the first

@@ -1,0 +1,222 @@
+"""The six steps of the page "Best prior", and what a mapping step costs."""
+
+import streamlit as st
+
+from occsim import Prior, coverage
+from occsim.formats.image_files import drawing_png, mask_png
+from occsim.formats.prior_map import (
+    Plain,
+    prior_csv,
+    prior_json,
+    prior_npy,
+    prior_png,
+)
+from occsim.pareto import recommend, set_c
+from pages._ui import compute, front_figures, maps, palette, state
+from pages._ui.choices import FrontAxes, Handover, Picture
+from pages._ui.front_figures import Mark
+from pages._ui.runs import Run
+from pages._ui.sweeping import CONFIG
+
+
+def recommended(run: Run) -> Prior | None:
+    """The pair with the highest F2 within set C; None where set C is empty."""
+    index = recommend(run.front, state.settings().min_recall)
+    if index is None:
+        return None
+    pair = run.front.p_wall[index], run.front.p_space[index]
+    return Prior(p_wall=float(pair[0]), p_space=float(pair[1]))
+
+
+def handed_over(run: Run) -> Prior:
+    """The prior that the path ends in: recommended, or chosen by hand."""
+    best = recommended(run)
+    if state.settings().handover is Handover.CHOSEN or best is None:
+        return state.prior()
+    return best
+
+
+def drawing(run: Run) -> None:
+    """Step 1: what the architect gave."""
+    building = run.building
+    height, width = building.drawing.shape
+    _head(1, f"Drawing: {building.title}")
+    st.image(drawing_png(building.drawing), width="stretch", alt="The drawing")
+    st.caption(
+        f"{width} x {height} px. Choose another above, or bring your own on the page "
+        "*Your building*."
+    )
+
+
+def walls(run: Run) -> None:
+    """Step 2: the walls found in it, which the prior is made of."""
+    building = run.building
+    _head(2, "Walls found in it")
+    st.image(mask_png(building.wall_mask), width="stretch", alt="The walls found")
+    if building.truth is None:
+        st.caption("There is no ground truth, so these walls serve as the world too.")
+        return
+    found = compute.comparison(building)
+    st.caption(
+        f"By image processing, so with errors: {maps.percent(found.precision)} of "
+        f"these pixels are wall in truth, and {maps.percent(found.recall)} of the true "
+        "walls are found (within 2 px)."
+    )
+
+
+def evidence(run: Run) -> None:
+    """Step 3: what the readings say, shown as the map without a drawing."""
+    blank = Prior.uninformative()
+    _head(3, "Evidence of the readings")
+    st.image(
+        run.picture(blank, Picture.BELIEF),
+        width="stretch",
+        alt="The map of the uninformative prior",
+    )
+    share = maps.percent(coverage(run.map(blank)))
+    st.caption(
+        f"{run.evidence.n_readings} readings saw {share} of the cells. Simulated once, "
+        f"they serve every prior; without a drawing: {_short(run, blank)}."
+    )
+
+
+def front(run: Run) -> None:
+    """Step 4: the best compromises."""
+    settings = state.settings()
+    _head(4, "Pareto front of all priors")
+    figure = front_figures.front_figure(
+        run.front, FrontAxes.SCORES, _marks(run), settings.min_recall
+    )
+    st.plotly_chart(figure, config=CONFIG, key="path_front")
+    n_inside = len(set_c(run.front, settings.min_recall))
+    st.caption(
+        f"{len(run.front)} points, exact; {n_inside} of them with a recall above "
+        f"{settings.min_recall:.2f} (set C)."
+    )
+
+
+def _marks(run: Run) -> list[Mark]:
+    wanted = [
+        ("uninformative", Prior.uninformative(), "square", palette.UNSEEN),
+        ("handed over", handed_over(run), "circle-open", palette.MARK),
+    ]
+    scored = [(name, run.scores(p), symbol, color) for name, p, symbol, color in wanted]
+    return [Mark(n, s.precision, s.recall, symbol, c) for n, s, symbol, c in scored]
+
+
+def best_map(run: Run, prior: Prior) -> None:
+    """Step 5: the pair, and the map that it gives."""
+    is_recommended = prior == recommended(run)
+    _head(5, "Recommended pair" if is_recommended else "Pair chosen by hand")
+    st.image(
+        run.picture(prior, Picture.BELIEF), width="stretch", alt="The map of this pair"
+    )
+    pair = maps.pair_text(prior.p_wall, prior.p_space)
+    why = "highest F2 within set C" if is_recommended else "see the explorer"
+    st.caption(f"(p_wall, p_space) = {pair}, {why}: {_short(run, prior)}.")
+    maps.against_uninformative(run, prior)
+    if prior.p_wall > prior.p_space:
+        st.caption(
+            "It calls wall cells freer than the others. With *subtract prior* that can "
+            "win: each further reading pushes a cell away from its prior. Compare with "
+            "*prior once*."
+        )
+    st.button(
+        "Use this pair on every page",
+        on_click=state.choose_pair,
+        args=(prior.p_wall, prior.p_space),
+        disabled=prior == state.prior(),
+    )
+
+
+def prior_map(run: Run, prior: Prior) -> None:
+    """Step 6: the prior map, to take away."""
+    made = run.prior_map(prior)
+    _head(6, "Prior map")
+    st.image(prior_png(made), width="stretch", alt="The prior map")
+    st.caption(
+        f"p_free is {prior.p_free_wall:.3g} on wall cells and {prior.p_free_space:.3g} "
+        f"elsewhere; {made.grid.n_rows} x {made.grid.n_cols} cells of "
+        f"{made.grid.cell_px} px."
+    )
+    settings = prior_json(made, prior, run.building.drawing, chosen_on(run, prior))
+    files = {
+        "png": (prior_png(made), "image/png"),
+        "npy": (prior_npy(made), "application/octet-stream"),
+        "csv": (prior_csv(made), "text/csv"),
+        "json": (settings, "application/json"),
+    }
+    with st.container(horizontal=True):
+        for suffix, (data, mime) in files.items():
+            st.download_button(
+                suffix.upper(),
+                data,
+                file_name=f"prior_map.{suffix}",
+                mime=mime,
+                on_click="ignore",
+                help="The settings that made it." if suffix == "json" else None,
+            )
+
+
+def chosen_on(run: Run, prior: Prior) -> dict[str, Plain]:
+    """What the pair was chosen on, for the settings file."""
+    settings, scores = run.settings, run.scores(prior)
+    best = prior == recommended(run)
+    return {
+        "building": run.building.title,
+        "building_digest": run.building.digest,
+        "has_ground_truth": run.building.truth is not None,
+        "n_readings": run.evidence.n_readings,
+        "range_px": settings.range_px,
+        "fov_deg": settings.fov_deg,
+        "behind_hit": settings.behind_hit.value,
+        "clear_no_hit": settings.clear_no_hit,
+        "wall_share": settings.wall_share,
+        "truth_share": settings.truth_share,
+        "update_rule": settings.rule.value,
+        "region": settings.region.value,
+        "chosen_by": "best F2 within set C" if best else "hand",
+        "set_c_min_recall": state.settings().min_recall,
+        "n_front_points": len(run.front),
+        "precision": scores.precision,
+        "recall": scores.recall,
+        "f2": scores.f2,
+    }
+
+
+@st.fragment
+def cost(run: Run, prior: Prior) -> None:
+    """The measured cost of a mapping step with this prior and without one."""
+    if not run.evidence.n_readings:
+        return
+    st.markdown("**What does the prior cost while mapping?**")
+    pair = maps.pair_text(prior.p_wall, prior.p_space)
+    names = [f"Prior {pair}", "Uninformative prior"]
+    costs = compute.step_costs(run, [prior, Prior.uninformative()])
+    lines = ["| | Median of a step | Fastest and slowest run |", "|---|---|---|"]
+    for name, one in zip(names, costs, strict=True):
+        low, high = one.range_us
+        lines.append(
+            f"| {name} | {one.median_us:.2f} µs | {low:.2f} to {high:.2f} µs |"
+        )
+    st.markdown("\n".join(lines))
+    st.caption(
+        f"Measured just now on this server: {len(costs[0].seconds)} runs over "
+        f"{run.evidence.n_readings} readings with each prior, in turn. A step is the "
+        "update of the cells of one reading, l + reading - l_0 for each; both priors "
+        "take the same operations on the same cells, so what differs is chance. The "
+        "simulation of the reading is not included: it does not know the prior."
+    )
+    st.button("Measure again")
+
+
+def _head(number: int, title: str) -> None:
+    st.markdown(f"**{number}. {title}**")
+
+
+def _short(run: Run, prior: Prior) -> str:
+    scores = run.scores(prior)
+    return (
+        f"precision {maps.percent(scores.precision)}, recall "
+        f"{maps.percent(scores.recall)}, F2 {maps.percent(scores.f2)}"
+    )
