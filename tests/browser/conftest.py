@@ -5,7 +5,7 @@ import contextlib
 import pytest
 from playwright.sync_api import Error
 
-from tests.browser.running import running_app, running_chromium
+from tests.browser.running import no_trouble, running_app, running_chromium
 
 
 @pytest.fixture(scope="session")
@@ -14,10 +14,7 @@ def app_url(tmp_path_factory):
     log_path = tmp_path_factory.mktemp("app") / "server.log"
     with running_app(log_path) as url:
         yield url
-    text = log_path.read_text()
-    for trouble in ("Traceback", "Warning"):
-        where = text.find(trouble)
-        assert where < 0, text[max(0, where - 500) : where + 2000]
+    no_trouble(log_path)
 
 
 @pytest.fixture(scope="session")

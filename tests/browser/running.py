@@ -38,11 +38,11 @@ def _is_up(url: str) -> bool:
 
 
 @contextmanager
-def running_app(log_path: Path) -> Iterator[str]:
+def running_app(log_path: Path, script: str = "app.py") -> Iterator[str]:
     """Start the app as the README does, on a free port; give its address."""
     port = _free_port()
     url = f"http://localhost:{port}"
-    command = [sys.executable, "-m", "streamlit", "run", "app.py"]
+    command = [sys.executable, "-m", "streamlit", "run", script]
     options = ["--server.port", str(port), "--server.headless", "true"]
     with log_path.open("w") as log:
         server = subprocess.Popen(
@@ -58,6 +58,14 @@ def running_app(log_path: Path) -> Iterator[str]:
         finally:
             server.terminate()
             server.wait(timeout=20)
+
+
+def no_trouble(log_path: Path) -> None:
+    """Fail where the server wrote of an error or a warning."""
+    text = log_path.read_text()
+    for trouble in ("Traceback", "Warning"):
+        where = text.find(trouble)
+        assert where < 0, text[max(0, where - 500) : where + 2000]
 
 
 @contextmanager

@@ -2,14 +2,12 @@
 
 import hashlib
 import json
-import subprocess
-import sys
 import time
 
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.running import ROOT, START_SECONDS, _free_port, _is_up
+from tests.browser.running import no_trouble, running_app
 
 pytestmark = pytest.mark.browser
 
@@ -20,25 +18,10 @@ READY = ".board[data-ready='1']"
 @pytest.fixture(scope="module")
 def board_url(tmp_path_factory):
     """The address of a small app that holds nothing but a board."""
-    port = _free_port()
-    url = f"http://localhost:{port}"
     log_path = tmp_path_factory.mktemp("board") / "server.log"
-    # `python -m` also puts the working directory, that is the project, on the path.
-    command = [sys.executable, "-m", "streamlit", "run", "tests/browser/board_app.py"]
-    options = ["--server.port", str(port), "--server.headless", "true"]
-    with log_path.open("w") as log:
-        server = subprocess.Popen(
-            command + options, cwd=ROOT, stdout=log, stderr=subprocess.STDOUT
-        )
-        deadline = time.monotonic() + START_SECONDS
-        while not _is_up(url):
-            assert server.poll() is None, log_path.read_text()
-            assert time.monotonic() < deadline, log_path.read_text()
-            time.sleep(0.2)
+    with running_app(log_path, "tests/browser/board_app.py") as url:
         yield url
-        server.terminate()
-        server.wait(timeout=20)
-    assert "Traceback" not in log_path.read_text(), log_path.read_text()
+    no_trouble(log_path)
 
 
 class Board:

@@ -1,0 +1,35 @@
+"""The bytes that the player is sent for a run of the cone, beside the log as it is."""
+
+from collections.abc import Iterator
+
+from occsim import collect_evidence, load_sample, sample_names, truth_cells
+from occsim.building import building_from_sample
+from occsim.formats.replay import pack_replay
+from occsim.world import wall_cells
+from tests.benchmarks.table import Row
+
+AIM_KB = 200
+
+
+def rows() -> Iterator[Row]:
+    for name in sample_names():
+        building, sensor = building_from_sample(name), load_sample(name).sensor
+        grid = building.world.grid(3)
+        log = collect_evidence(building.world, building.trajectory, sensor, grid)
+        sent = pack_replay(
+            log,
+            is_wall=wall_cells(building.wall_mask, grid),
+            truth=truth_cells(building.world, grid),
+            trajectory=building.trajectory,
+            sensor=sensor,
+            drawing=building.drawing,
+        )
+        kb = len(sent) / 1000
+        raw_kb = (log.cell.nbytes + log.log_odds.nbytes + log.indptr.nbytes) / 1000
+        yield Row(
+            f"replay of {name}, {log.n_readings} readings",
+            f"{kb:.0f} kB",
+            f"< {AIM_KB} kB",
+            f"log in memory {raw_kb:.0f} kB, {raw_kb / kb:.0f} times as much",
+            kb < AIM_KB,
+        )

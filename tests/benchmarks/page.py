@@ -1,0 +1,98 @@
+"""The page "Build a map" in a real browser, warm, beside a blank Streamlit page."""
+
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from statistics import median
+
+from playwright.sync_api import Page
+
+from tests.benchmarks.table import Row, timed_row
+from tests.browser.running import running_app, running_chromium
+
+PLAYER = ".player[data-ready='1']"
+REPEATS = 7
+FRAMES_JS = """root => new Promise(done => {
+    let frames = 0;
+    const start = performance.now();
+    const count = now => {
+        frames += 1;
+        now - start < 3000 ? requestAnimationFrame(count) : done(frames / 3);
+    };
+    root.querySelector('[data-do=play]').click();
+    requestAnimationFrame(count);
+})"""
+
+
+def rows() -> Iterator[Row]:
+    with tempfile.TemporaryDirectory() as scratch, running_chromium() as browser:
+        log = Path(scratch) / "server.log"
+        blank_app = Path(scratch) / "blank.py"
+        blank_app.write_text("import streamlit\nstreamlit.write('ready')\n")
+        with running_app(log, str(blank_app)) as url:
+            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            blank = _opening_ms(page, url, "text=ready")
+        with running_app(log) as url:
+            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            yield _opening_row(_opening_ms(page, f"{url}/Build_a_map", PLAYER), blank)
+            yield timed_row(
+                "a moved slider's new map on screen, new settings each time",
+                _slider_ms(page),
+                400,
+            )
+            yield from _player_rows(page)
+
+
+def _opening_row(ms: float, blank_ms: float) -> Row:
+    beside = f"blank Streamlit page {blank_ms:.0f} ms, x {ms / blank_ms:.1f}"
+    return timed_row("page open until the player is drawn", ms, 2000, beside)
+
+
+def _median_ms(call: Callable[[], object]) -> float:
+    times = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - start)
+    return 1e3 * median(times)
+
+
+def _opening_ms(page: Page, url: str, ready: str) -> float:
+    def open_it() -> None:
+        page.goto(url)
+        page.wait_for_selector(ready)
+
+    open_it()
+    return _median_ms(open_it)
+
+
+def _slider_ms(page: Page) -> float:
+    """Time from the key that moves the range to the player's new replay."""
+    page.get_by_role("slider", name="Range").focus()
+
+    def move() -> None:
+        player = page.locator(PLAYER).element_handle()
+        before = player.evaluate("root => root.player.header.digest")
+        page.keyboard.press("ArrowRight")
+        page.wait_for_function(
+            "([root, before]) => root.player.header.digest !== before",
+            arg=[player, before],
+        )
+
+    return _median_ms(move)
+
+
+def _player_rows(page: Page) -> Iterator[Row]:
+    player = page.locator(PLAYER)
+    recolour, scrub = [], []
+    for value in range(30):
+        slider = player.locator("[data-slider=p_space] input")
+        slider.fill(f"{0.3 + 0.02 * value:.2f}")
+        recolour.append(float(player.evaluate("root => root.dataset.recolourMs")))
+        player.locator("[data-part=scrub]").fill(str(10 * value))
+        scrub.append(float(player.evaluate("root => root.dataset.drawMs")))
+    yield timed_row("prior moved in the player, script time", median(recolour), 30)
+    yield timed_row("scrubbed in the player, script time", median(scrub), 30)
+    frames = player.evaluate(FRAMES_JS)
+    yield Row("replay", f"{frames:.0f} frames/s", "60 frames/s", "", frames > 58)
