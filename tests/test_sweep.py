@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occsim import Grid, ParameterError, Prior, UpdateRule, fuse
+from occsim import EvidenceLog, Grid, ParameterError, Prior, UpdateRule, fuse
 from occsim.metrics import Region, Scores, score
 from occsim.prior import prior_from_cells
 from occsim.sweep import (
@@ -105,6 +105,40 @@ def test_counts_change_only_where_a_step_starts(case, rule):
         for start in step.starts():
             for level in (np.nextafter(start, -np.inf), start):
                 direct = np.count_nonzero((sums + weight * level < -1e-9) & cells)
+                assert step(level) == direct
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    log_odds=st.lists(
+        st.floats(-40, 40)
+        | st.sampled_from([-1e-9, np.nextafter(-1e-9, 0), -5e-10, 0.0, 2e3, -2e3]),
+        min_size=1,
+        max_size=6,
+    ),
+    twice=st.booleans(),
+    rule=RULES,
+)
+def test_levels_are_exact_to_the_last_bit_for_any_evidence(log_odds, twice, rule):
+    """One cell of each log-odds, read once, or once and then with nothing to say.
+
+    Log-odds beside the tie band all but cancel it, and huge ones leave no prior any
+    say; both sides of every step are compared with the decision itself.
+    """
+    n, repeats = len(log_odds), 1 + twice
+    evidence = EvidenceLog(
+        grid=Grid(height_px=1, width_px=n, cell_px=1),
+        indptr=n * np.arange(repeats + 1),
+        cell=np.tile(np.arange(n, dtype=np.int32), repeats),
+        log_odds=np.array(log_odds + [0.0] * n * twice),
+    )
+    flags = np.ones((1, n), dtype=bool)
+    step = prior_surface(evidence, flags, flags, rule).wall_tp
+    weight = 1 - repeats if rule is UpdateRule.SUBTRACT_PRIOR else 1
+    for start in [*step.starts(), -700.0, 700.0]:
+        for level in (np.nextafter(start, -np.inf), start):
+            if abs(level) < 750.0:
+                direct = np.count_nonzero(np.array(log_odds) + weight * level < -1e-9)
                 assert step(level) == direct
 
 

@@ -6,6 +6,7 @@ log-odds l_0, so the counts of each class are step functions of one variable, kn
 once the levels are sorted. Every sweep and the exact Pareto front are read from them.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,12 @@ from occsim.logodds import DECISION_EPS, is_occupied, logit
 from occsim.mapping import UpdateRule, prior_weight
 from occsim.metrics import Region
 from occsim.prior import PRIOR_SCALE
+
+LEVEL_LIMIT = 1e3
+"""Beyond the log-odds of any prior, nats: the smallest positive number has -745."""
+
+MAX_STEP = 2**60
+"""Longest stride of the search for a level, in numbers of the machine."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,20 +215,62 @@ def _flip_levels(sums: FloatArray, weight: FloatArray) -> FloatArray:
     """
     moved = weight != 0.0
     s, w = sums[moved], weight[moved]
-    level = (-DECISION_EPS - s) / w
-    occupied_side = np.where(w > 0.0, -np.inf, np.inf)
-    # The quotient is right to a few units in the last place; walk those.
-    while (short := ~is_occupied(s + w * level)).any():
-        level[short] = np.nextafter(level[short], occupied_side[short])
-    while True:
-        beyond = np.nextafter(level, -occupied_side)
-        further = is_occupied(s + w * beyond)
-        if not further.any():
-            break
-        level[further] = beyond[further]
+    # Places are counted towards the side on which the cell is free.
+    side = np.where(w > 0.0, 1, -1)
+
+    def occupied(place: IntArray) -> BoolArray:
+        return is_occupied(s + w * _number_at(side * place))
+
+    guess = np.clip((-DECISION_EPS - s) / w, -LEVEL_LIMIT, LEVEL_LIMIT)
     levels = np.full_like(sums, np.nan)
-    levels[moved] = level
+    levels[moved] = _number_at(side * _last_true(occupied, side * _place_of(guess)))
     return levels
+
+
+def _last_true(holds: Callable[[IntArray], BoolArray], guess: IntArray) -> IntArray:
+    """Return the last place at which something holds that later ends for good.
+
+    Parameters
+    ----------
+    holds : callable
+        From one place a cell, (N,), to flags (N,): true up to some place.
+    guess : ndarray of int64, shape (N,)
+        Usually within one of the answer; far off where S and the width of the tie band
+        all but cancel.
+
+    Returns
+    -------
+    ndarray of int64, shape (N,)
+        Within the places of ``LEVEL_LIMIT``; its ends where the answer lies beyond.
+    """
+    last = int(_place_of(np.float64(LEVEL_LIMIT)))
+    low, high = np.maximum(guess - 1, -last), np.minimum(guess + 1, last)
+    step = 2
+    while (short := ~holds(low) & (low > -last)).any():
+        low[short] = np.maximum(low[short] - step, -last)
+        step = min(2 * step, MAX_STEP)
+    step = 2
+    while (short := holds(high) & (high < last)).any():
+        high[short] = np.minimum(high[short] + step, last)
+        step = min(2 * step, MAX_STEP)
+    while (apart := high - low > 1).any():
+        middle = low + (high - low) // 2
+        true = holds(middle)
+        low = np.where(apart & true, middle, low)
+        high = np.where(apart & ~true, middle, high)
+    # At the far end it may hold throughout.
+    return np.where(holds(high), high, low)
+
+
+def _place_of(number: FloatArray | np.float64) -> IntArray:
+    # Numbers of the machine in their order: 0 for zero, 1 for the next above it.
+    bits = np.asarray(number, dtype=np.float64).view(np.int64)
+    return np.where(bits >= 0, bits, np.iinfo(np.int64).min - bits)
+
+
+def _number_at(place: IntArray) -> FloatArray:
+    bits = np.where(place >= 0, place, np.iinfo(np.int64).min - place)
+    return bits.view(np.float64)
 
 
 def _step_count(sums: FloatArray, weight: FloatArray, level: FloatArray) -> StepCount:
