@@ -17,16 +17,18 @@ SECTIONS = {
 
 lesson = shell.begin("pages/2_Your_building.py")
 shell.heading(lesson)
+chosen = state.choice()
 
 with st.container(horizontal=True, vertical_alignment="bottom"):
     controls.drawing_choice()
+    st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
     section = st.segmented_control(
         "Section",
         list(SECTIONS),
         required=True,
+        label_visibility="collapsed",
         **state.bind_view("section", "1 Drawing"),
     )
-    st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
 
 notices = st.container()
 SECTIONS[section]()
@@ -35,3 +37,6 @@ with notices:
     if state.message():
         st.error(state.message())
     uploads.pose_notice()
+if state.choice() != chosen:
+    # The first stroke on a sample made it the student's own: the list above says so.
+    st.rerun()

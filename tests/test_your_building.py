@@ -152,6 +152,21 @@ def test_two_clicks_across_a_door_set_range_and_scale():
 # --- Walls, corrections, ground truth -------------------------------------------------
 
 
+def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
+    app = at("4 Corrections", with_rooms())
+    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
+    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
+    assert own(app).walls.strokes == (dot,)
+    assert own(app).wall_mask[80, 50]
+    app = at("3 Walls", app)
+    slider = next(s for s in app.slider if s.key and s.key.startswith("wall_"))
+    slider.set_value(slider.max).run()
+    assert not app.exception
+    field = slider.key.removeprefix("wall_")
+    assert getattr(own(app).wall_params, field) == slider.max
+    assert own(app).wall_mask[80, 50]
+
+
 def test_undone_strokes_leave_the_mask():
     app = at("4 Corrections", with_rooms())
     dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)

@@ -198,8 +198,8 @@ def test_poses_are_edited_in_the_table(workshop, page):
         page.wait_for_timeout(250)
         if editor.count():
             break
-    page.keyboard.press("Control+A")
-    page.keyboard.type("33.5")
-    page.keyboard.press("Enter")
+    editor.first.fill("33.5")
+    expect(editor.first).to_have_value("33.5")
+    editor.first.press("Enter")
     workshop.shows("Yours: House, ground floor")
     assert workshop.project().trajectory.poses[0, 0] == 33.5

@@ -36,7 +36,6 @@ def show() -> None:
             **state.bind_view("way", WAYS[0]),
         )
         {"Sketch": _sketch, "Plan": _plan, "Table": _table, "Files": _files}[way]()
-        _facts()
     with left:
         if way == "Sketch" and not state.view("show_poses", False):
             _board()
@@ -44,6 +43,9 @@ def show() -> None:
             st.plotly_chart(
                 poses_figure(state.building(), drawn.HEIGHT_PX), key="poses"
             )
+    with right:
+        # After the board: of the path as it is drawn now.
+        _facts()
 
 
 def _facts() -> None:

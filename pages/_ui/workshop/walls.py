@@ -5,60 +5,40 @@ from functools import partial
 
 import streamlit as st
 
-import occsim.walls
 from occsim.building import CorrectedMask
-from occsim.walls import Slider, WallParams
+from occsim.walls import STAGE_NOTES, Slider, WallParams
 from pages._ui import compute, state
 from pages._ui.workshop import masks
 
-COLUMNS = 4
-STAGE_NOTES = getattr(occsim.walls, "STAGE_NOTES", {})
+COLUMNS = 5
+"""Two rows of pictures, large enough to see a door leaf vanish."""
 
 
 def show() -> None:
-    """Show every stage with its sentence and its sliders."""
+    """Show every stage with its sentence and its sliders, and where the mask errs."""
     building = state.building()
     stages = compute.stage_pictures(building.drawing, building.wall_params)
-    pictures = [(title, image, True) for title, image in stages]
-    if building.truth is not None:
-        pictures.append(("Against the ground truth", masks.error_picture(), False))
-    for start in range(0, len(pictures), COLUMNS):
-        row = pictures[start : start + COLUMNS]
-        columns = st.columns(COLUMNS, gap="medium")
-        for column, (title, image, is_stage) in zip(columns, row, strict=False):
+    cells = [partial(_stage, title, image) for title, image in stages]
+    cells += [_errors, _all_stages]
+    for start in range(0, len(cells), COLUMNS):
+        columns = st.columns(COLUMNS)
+        for column, cell in zip(columns, cells[start : start + COLUMNS], strict=False):
             with column:
-                st.image(image, width="stretch")
-                st.markdown(f"**{title}**")
-                if is_stage:
-                    _stage(title)
-                else:
-                    _errors()
-    st.button(
-        "Automatic settings",
-        on_click=state.edit,
-        args=(partial(_detect, WallParams()),),
-        disabled=building.wall_params == WallParams(),
-    )
+                cell()
 
 
-def _stage(title: str) -> None:
-    if title not in STAGE_NOTES:
-        return
+def _stage(title: str, image: bytes) -> None:
     note = STAGE_NOTES[title]
+    st.image(image, width="stretch")
+    st.markdown(f"**{title}**")
     st.caption(note.sentence)
     for slider in note.sliders:
         _slider(slider)
 
 
 def _slider(slider: Slider) -> None:
-    """Draw the slider of a parameter; 0 leaves its value to the program."""
-    value = getattr(state.building().wall_params, slider.field)
-    if isinstance(value, bool):
-        st.toggle(slider.label, **state.bind_wall(slider.field, _change))
-        return
-    is_automatic = getattr(WallParams(), slider.field) == 0 == slider.low
     st.slider(
-        slider.label + (" (0: automatic)" if is_automatic else ""),
+        slider.label,
         float(slider.low),
         float(slider.high),
         step=float(slider.step),
@@ -67,11 +47,32 @@ def _slider(slider: Slider) -> None:
 
 
 def _errors() -> None:
-    st.caption(
-        "Black: found. Orange: false wall. Blue: missed wall. Both within 2 px of "
-        "tolerance."
-    )
+    st.image(masks.error_picture(), width="stretch")
+    if state.building().truth is None:
+        st.markdown("**Wall mask**")
+    else:
+        st.markdown("**Against the ground truth**")
+        st.caption("Black: found. Orange: false wall. Blue: missed wall.")
     masks.agreement()
+
+
+def _all_stages() -> None:
+    st.button(
+        "Automatic settings",
+        on_click=state.edit,
+        args=(partial(_detect, WallParams()),),
+        disabled=state.building().wall_params == WallParams(),
+        width="stretch",
+    )
+    st.toggle(
+        "Straighten first",
+        help="Turn a tilted drawing upright while its walls are looked for.",
+        **state.bind_wall("straighten", _change),
+    )
+    st.caption(
+        "All lengths are estimated from the drawing's own lines. What still errs is "
+        "corrected by hand in the next section."
+    )
 
 
 def _detect(params: WallParams) -> None:
