@@ -5,10 +5,10 @@ import numpy as np
 from occsim._types import BoolArray, ByteArray
 from occsim.walls.raster import Components, box, closed, components, depth, opened
 
-MAIN_SHARE = 0.1
+MAIN_SHARE = 0.25
 """Area of a piece, as a share of the largest one's, from which it spans a building."""
 
-STRAY_SHARE = 0.25
+STRAY_SHARE = 0.12
 """Area of a group, as a share of the largest one's, from which it is kept."""
 
 BRIDGE = 0.35, 1.5

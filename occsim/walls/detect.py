@@ -25,6 +25,9 @@ HOLLOW_SHARE = 0.1
 INKED_SHARE = 0.3
 """Share of masses that ink must have for solid walls to be the drawing's own."""
 
+SPECK = 1.75
+"""Side of the smallest mass that may be a column, in thinnest walls."""
+
 DOOR_REACH = 1.6
 """Widest doorway, in usual leaves: two leaves, or a leaf and its frame."""
 
@@ -119,7 +122,7 @@ def _strokes(
     m: Measures,
 ) -> _Strokes:
     """Tell lines, masses and fills apart, and take the doors out of them."""
-    mass = opened(ink, box(m.thin))
+    mass = _without_specks(opened(ink, box(m.thin)), m)
     fills = find_fills(dark, letters, m, params.fill_level)
     swings = find_swings(ink & ~dilated(mass, box(3)), m, params.door_fit)
     leaf, doorways = leaves(swings, ink, m.line)
@@ -129,6 +132,12 @@ def _strokes(
     if swings:
         door_px = DOOR_REACH * float(np.median([s.radius_px for s in swings]))
     return _Strokes(ink & ~leaf, mass & ~leaf, fills & ~leaf, doorways, door_px)
+
+
+def _without_specks(mass: ByteArray, m: Measures) -> ByteArray:
+    """Drop what is hardly larger than it is thick: crossings of lines, arrowheads."""
+    parts = components(mass)
+    return parts.chosen(parts.area >= (SPECK * m.thin) ** 2)
 
 
 def _walls(

@@ -81,8 +81,8 @@ def gap_limits(
     m : Measures
         Lengths of the drawing.
     """
-    usual = np.flatnonzero(gap_votes > USUAL_SHARE * gap_votes.sum())
-    common = np.flatnonzero(area_votes > USUAL_SHARE / 2 * area_votes.sum())
+    usual = _usual(gap_votes)
+    common = _usual(area_votes)
     low, high = (usual.min() - 1.0, usual.max() + 1.5) if len(usual) else (1.0, 0.0)
     if params.max_gap_px:
         low, high = min(low, 1.0 * m.line), m.scale * params.max_gap_px
@@ -93,6 +93,14 @@ def gap_limits(
         slenderness=params.min_slenderness,
         seed_px=m.seed,
     )
+
+
+def _usual(votes: FloatArray) -> IntArray:
+    """Return the thicknesses that hold, with their neighbours, a fair share of votes."""
+    padded = np.pad(votes, 1)
+    near = padded[:-2] + padded[1:-1] + padded[2:]
+    common = (near > USUAL_SHARE * votes.sum()) & (votes > near / 4)
+    return np.flatnonzero(common)
 
 
 def hollow_walls(gaps: Gaps, doorways: ByteArray, limits: GapLimits) -> BoolArray:

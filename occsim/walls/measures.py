@@ -1,5 +1,6 @@
 """The lengths that wall detection works with, estimated where they are not given."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,7 +37,7 @@ class Measures:
     scale : int
         Working pixels along a pixel of the drawing.
     extent : float
-        Shorter side of the frame.
+        Shorter side of the drawing.
     line : int
         Thickness of lines.
     symbol : float
@@ -73,16 +74,26 @@ def measure(ink: ByteArray, params: WallParams, scale: int) -> Measures:
     scale : int
         Working pixels along a pixel of the drawing.
     """
-    extent = float(min(ink.shape))
-    thickest_line = max(2.0 * scale, LINE_SHARE * extent)
+    extent = _extent(ink)
+    thickest_line = max(1.5 * scale, LINE_SHARE * extent)
     line = max(line_thickness(ink, thickest_line), scale)
     symbol = max(SYMBOL_PX * scale, SYMBOL_SHARE * extent)
+    # Enlarged lines come out thicker than they were drawn.
+    thin = math.floor(MASS_LINES * line) if scale > 1 else math.ceil(MASS_LINES * line)
     return Measures(
         scale=scale,
         extent=extent,
         line=line,
         symbol=scale * params.max_symbol_px or symbol,
-        thin=scale * params.min_wall_px or max(np.ceil(MASS_LINES * line), 3.0),
+        thin=scale * params.min_wall_px or max(thin, 3.0),
         thick=scale * params.max_wall_px or WALL_SHARE * extent,
         seed=SEED_SHARE * extent,
     )
+
+
+def _extent(ink: ByteArray) -> float:
+    """Return the shorter side of the box around the ink, px; margins say nothing."""
+    rows, cols = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    if len(rows) == 0:
+        return float(min(ink.shape))
+    return float(min(np.ptp(rows), np.ptp(cols)) + 1)

@@ -3,20 +3,19 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
 from occsim.walls.raster import Components
 
 OUTSIDE = 2  # what lies above the first and below the last row
 
-LINE_QUANTILE = 0.8
+LINE_QUANTILE = 0.7
 """Share of the length of all thin strokes that is no thicker than `line_px`."""
 
 SHORTEST_STRIP_PX = 12
-"""Shortest run of equal columns that makes a strip, px."""
-
-SAME_STRIP_GAP_PX = 3
-"""Columns that a strip may miss, px: where a line ends on it."""
+"""Shortest chain of like runs that makes a strip, px."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +123,9 @@ def line_thickness(ink: ByteArray, thickest_px: float) -> int:
 def strip_votes(mask: ByteArray, value: int, max_px: int, line_px: int) -> FloatArray:
     """Return how much straight strips of each thickness there is.
 
-    Strips are runs that begin on the same row, have the same length, and follow each
-    other over many columns (and the same for rows). Long strips say more than many
-    short ones, so that each adds the square of its length.
+    Strips are like runs that follow each other over many columns (and the same for
+    rows). Long strips say more than many short ones, so that each adds the square of
+    its length.
 
     Parameters
     ----------
@@ -153,7 +152,6 @@ def strip_votes(mask: ByteArray, value: int, max_px: int, line_px: int) -> Float
         if value == 0:
             index = index[_between_lines(runs, index, line_px)]
         thick, length = _strips(runs, index)
-        # Long strips say more than many short ones.
         votes += np.bincount(thick, length**2, max_px + 1)
     return votes
 
@@ -171,20 +169,38 @@ def _between_lines(runs: Runs, index: IntArray, line_px: int) -> BoolArray:
 
 
 def _strips(runs: Runs, index: IntArray) -> tuple[IntArray, FloatArray]:
-    """Join equal runs of neighbouring columns; thickness and length of the long ones.
+    """Join like runs of neighbouring columns; thickness and length of the long chains.
+
+    A run continues in the next column if start and length change by a pixel at most.
+
+    Parameters
+    ----------
+    runs : Runs
+        Runs of a mask.
+    index : ndarray of int64, shape (K,)
+        Those of interest, ascending.
 
     Returns
     -------
     thick : ndarray of int64, shape (M,)
     length : ndarray of float64, shape (M,)
     """
+    if len(index) == 0:
+        return np.zeros(0, np.int64), np.zeros(0)
     column, start, thick = runs.column[index], runs.start[index], runs.length[index]
-    order = np.lexsort((column, thick, start))
-    column, start, thick = column[order], start[order], thick[order]
-    begins = np.ones(len(order), dtype=bool)
-    begins[1:] = (np.diff(start) != 0) | (np.diff(thick) != 0)
-    begins[1:] |= np.diff(column) > SAME_STRIP_GAP_PX
-    length = np.bincount(np.cumsum(begins) - 1) if len(order) else np.zeros(0, np.int64)
-    thick = thick[begins]
-    long = length >= np.maximum(SHORTEST_STRIP_PX, 3 * thick)
-    return thick[long], length[long].astype(np.float64)
+    height = int(start.max()) + 3  # room for a shift by one either way
+    place = column * height + start
+    left, right = [], []
+    for shift in (-1, 0, 1):
+        wanted = place + height + shift
+        at = np.minimum(np.searchsorted(place, wanted), len(place) - 1)
+        like = (place[at] == wanted) & (np.abs(thick[at] - thick) <= 1)
+        left.append(np.flatnonzero(like))
+        right.append(at[like])
+    first, second = np.concatenate(left), np.concatenate(right)
+    links = coo_array((np.ones(len(first)), (first, second)), shape=(len(index),) * 2)
+    _, chain = connected_components(links, directed=False)
+    length = np.bincount(chain)
+    mean = np.rint(np.bincount(chain, thick) / length).astype(np.int64)
+    long = length >= np.maximum(SHORTEST_STRIP_PX, 3 * mean)
+    return mean[long], length[long].astype(np.float64)

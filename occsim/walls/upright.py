@@ -29,7 +29,7 @@ class Frame:
     scale : int
         Working pixels along a pixel of the drawing.
     turn : ndarray of float64, shape (2, 3), or None
-        Affine from the enlarged drawing to the working frame; None for no turn.
+        Affine from the drawing's pixels to the frame's; None for no turn.
     shape : tuple of int
         Height and width of the drawing, px.
     """
@@ -44,10 +44,13 @@ class Frame:
         height, width = self.shape
         levels = as_bytes(mask) * np.uint8(255)
         if self.turn is not None:
-            size = width * self.scale, height * self.scale
+            # Blurred as much as a reduction by area would do.
+            smooth = cv2.blur(levels, (self.scale, self.scale), anchor=(0, 0))
             flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-            levels = np.asarray(cv2.warpAffine(levels, self.turn, size, flags=flags))
-        if self.scale > 1:
+            levels = np.asarray(
+                cv2.warpAffine(smooth, self.turn, (width, height), flags=flags)
+            )
+        elif self.scale > 1:
             levels = np.asarray(
                 cv2.resize(levels, (width, height), interpolation=cv2.INTER_AREA)
             )
@@ -66,14 +69,15 @@ def working_frame(dark: ByteArray, straighten: bool = True) -> Frame:
     """
     height, width = dark.shape
     scale = 2 if dark.size < SMALL_DRAWING_PX else 1
+    large = dark
     if scale > 1:
         size = width * scale, height * scale
-        dark = np.asarray(cv2.resize(dark, size, interpolation=cv2.INTER_CUBIC))
-    turn = None
-    tilt_deg = tilt(dark) if straighten else 0.0
-    if abs(tilt_deg) > LEAST_TILT_DEG:
-        dark, turn = _turned(dark, tilt_deg)
-    return Frame(dark=dark, scale=scale, turn=turn, shape=(height, width))
+        large = np.asarray(cv2.resize(dark, size, interpolation=cv2.INTER_CUBIC))
+    tilt_deg = tilt(large) if straighten else 0.0
+    if abs(tilt_deg) <= LEAST_TILT_DEG:
+        return Frame(dark=large, scale=scale, turn=None, shape=dark.shape)
+    turned, turn = _turned(dark, tilt_deg, scale)
+    return Frame(dark=turned, scale=scale, turn=turn, shape=dark.shape)
 
 
 def tilt(dark: ByteArray) -> float:
@@ -107,15 +111,17 @@ def _circular_peak(votes: FloatArray) -> float:
     return (centre + n_bins / 2) % n_bins - n_bins / 2
 
 
-def _turned(dark: ByteArray, tilt_deg: float) -> tuple[ByteArray, FloatArray]:
-    """Turn a picture by a tilt, on a canvas that holds all of it."""
+def _turned(
+    dark: ByteArray, tilt_deg: float, scale: int
+) -> tuple[ByteArray, FloatArray]:
+    """Turn a picture by a tilt and enlarge it, on a canvas that holds all of it."""
     height, width = dark.shape
-    turn = cv2.getRotationMatrix2D((width / 2, height / 2), tilt_deg, 1.0)
+    turn = cv2.getRotationMatrix2D((width / 2 - 0.5, height / 2 - 0.5), tilt_deg, scale)
     cos, sin = abs(turn[0, 0]), abs(turn[0, 1])
     size = (
         int(np.ceil(height * sin + width * cos)),
         int(np.ceil(height * cos + width * sin)),
     )
-    turn[:, 2] += (size[0] - width) / 2, (size[1] - height) / 2
-    turned = cv2.warpAffine(dark, turn, size, flags=cv2.INTER_LINEAR, borderValue=0)
+    turn[:, 2] += np.divide(size, 2) - 0.5 - (width / 2 - 0.5, height / 2 - 0.5)
+    turned = cv2.warpAffine(dark, turn, size, flags=cv2.INTER_CUBIC, borderValue=0)
     return np.asarray(turned, dtype=np.uint8), np.asarray(turn, dtype=np.float64)
