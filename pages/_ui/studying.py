@@ -128,9 +128,11 @@ def all_fronts(cases: list[StudyCase]) -> None:
 
 def downloads(cases: list[StudyCase]) -> None:
     """The results as files."""
+    studied = {case.name for case in cases}
     described = [
         case_settings(drawing, cell_px, settings())
         for drawing in drawings()
+        if drawing.name in studied
         for cell_px in SOURCE_CELLS_PX
     ]
     min_recall = state.settings().min_recall

@@ -1,0 +1,358 @@
+"""The pages on sweeps and fronts: every control once, and what must not kill them."""
+
+import math
+
+import numpy as np
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from occsim import (
+    BehindHit,
+    Objective,
+    Prior,
+    Region,
+    Scores,
+    Trajectory,
+    UpdateRule,
+    sample_names,
+)
+from occsim.building import Building, CorrectedMask, empty_mask
+from occsim.drawing import load_drawing
+from occsim.nsga2 import Elitism
+from occsim.pareto import near_front
+from pages._ui import compute, figures, fronts, guiding, maps, surfaces
+from pages._ui.choices import (
+    Drawings,
+    Exploring,
+    Fineness,
+    FrontAxes,
+    Handover,
+    Objectives,
+    Picture,
+    Surface,
+)
+from pages._ui.settings import Settings, encode, with_changes
+from tests.test_pages import ROOT, png
+
+SWEEP = "pages/5_Sweep_the_priors.py"
+EXPLORER = "pages/6_Pareto_explorer.py"
+BEST = "pages/7_Best_prior.py"
+STUDY = "pages/8_Study.py"
+PAGES = (SWEEP, EXPLORER, BEST, STUDY)
+
+
+def open_with(page, **changes):
+    """A page opened by a link that holds some settings; it must not raise."""
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    for name, text in encode(with_changes(Settings(), changes)).items():
+        app.query_params[name] = text
+    app.switch_page(page).run()
+    assert not app.exception
+    return app
+
+
+def setting(app, name):
+    return getattr(app.session_state["settings"], name)
+
+
+def texts(app):
+    """All words of a page."""
+    kinds = (app.markdown, app.caption, app.warning, app.info, app.error)
+    return "\n".join(item.value for kind in kinds for item in kind)
+
+
+def press(app, label):
+    next(button for button in app.button if button.label.startswith(label)).click()
+    app.run()
+    assert not app.exception
+    return app
+
+
+# --- Every control ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("surface", Surface)
+@pytest.mark.parametrize("drawings", Drawings)
+def test_each_surface_is_drawn_for_one_drawing_and_for_all(surface, drawings):
+    app = open_with(SWEEP, surface=surface, drawings=drawings, cell_px=10)
+    assert len(app.get("plotly_chart")) == (2 if drawings is Drawings.THIS else 1)
+
+
+def test_each_fineness_is_drawn():
+    app = open_with(SWEEP, surface=Surface.EXACT, cell_px=10)
+    for fineness in Fineness:
+        app.selectbox(key="control_fineness").select(fineness).run()
+        assert not app.exception
+
+
+def test_a_pair_set_by_hand_is_kept_for_every_page():
+    app = open_with(SWEEP, uninformative=True)
+    app.slider(key="control_p_wall").set_value(0.35).run()
+    assert setting(app, "p_wall") == 0.35
+    assert "(p_wall, p_space) = (0.35, 0.9)" in texts(app)
+
+
+def test_all_five_have_their_maxima_in_one_table():
+    app = open_with(SWEEP, drawings=Drawings.ALL, cell_px=10)
+    for name in sample_names():
+        assert f"| {name} | precision |" in texts(app)
+
+
+@pytest.mark.parametrize("axes", FrontAxes)
+@pytest.mark.parametrize("picture", Picture)
+def test_one_front_is_explored(axes, picture):
+    app = open_with(EXPLORER, axes=axes, picture=picture, cell_px=10)
+    assert "Uninformative: p_free = 0.5" in texts(app)
+
+
+@pytest.mark.parametrize("rule", UpdateRule)
+@pytest.mark.parametrize("behind_hit", BehindHit)
+def test_all_readings_of_the_source_can_be_explored(rule, behind_hit):
+    region = Region.ALL if rule is UpdateRule.PRIOR_ONCE else Region.EXPLORED
+    open_with(EXPLORER, cell_px=10, rule=rule, behind_hit=behind_hit, region=region)
+
+
+@pytest.mark.parametrize("label", ["Recommended", "Best precision", "Best recall"])
+def test_a_button_chooses_a_point_of_the_front(label):
+    app = press(open_with(EXPLORER), label)
+    assert "The chosen pair is on the front." in texts(app)
+
+
+def test_the_slider_walks_along_the_front():
+    app = open_with(EXPLORER)
+    front = compute.run(compute.sample("a"), app.session_state["settings"]).front
+    slider = app.select_slider(key="front_point")
+    other = 0 if slider.value else 1
+    slider.set_value(other).run()
+    pair = setting(app, "p_wall"), setting(app, "p_space")
+    assert pair == (front.p_wall[other], front.p_space[other])
+
+
+def test_an_empty_set_c_is_said():
+    app = open_with(EXPLORER, min_recall=0.95, rule=UpdateRule.SUBTRACT_PRIOR)
+    app.selectbox(key="control_choice").select("c").run()
+    assert "Set C is empty" in texts(app)
+
+
+@pytest.mark.parametrize("objectives", Objectives)
+@pytest.mark.parametrize("elitism", Elitism)
+def test_a_search_runs_and_its_generations_are_kept(objectives, elitism):
+    changes = {"objectives": objectives, "elitism": elitism, "n_gen": 5}
+    changes |= {"pop_size": 20, "cell_px": 10}
+    app = open_with(EXPLORER, exploring=Exploring.SEARCH, **changes)
+    app = press(app, "Run the search")
+    assert "5 generations of 20 pairs, seed 1" in texts(app)
+    app.number_input(key="control_seed").set_value(2).run()
+    assert "generations of" not in texts(app)
+
+
+@pytest.mark.parametrize("axes", FrontAxes)
+def test_all_drawings_are_compared(axes):
+    app = open_with(EXPLORER, exploring=Exploring.ALL, axes=axes, cell_px=10)
+    assert "of every drawing's front" in texts(app)
+    app = press(app, "Choose")
+    assert setting(app, "p_wall") in surfaces.axis(0.02)
+    assert setting(app, "p_space") in surfaces.axis(0.02)
+
+
+@pytest.mark.parametrize("handover", Handover)
+def test_the_path_ends_in_four_files(handover):
+    app = open_with(BEST, handover=handover)
+    assert [b.label for b in app.get("download_button")] == [
+        "PNG",
+        "NPY",
+        "CSV",
+        "JSON",
+    ]
+    assert "Median of a step" in texts(app)
+    press(app, "Measure again")
+
+
+def test_the_recommended_pair_goes_to_every_page():
+    app = press(open_with(BEST), "Use this pair")
+    run = compute.run(compute.sample("a"), app.session_state["settings"])
+    best = guiding_pair(run, app.session_state["settings"])
+    assert (setting(app, "p_wall"), setting(app, "p_space")) == best
+
+
+def guiding_pair(run, settings):
+    index = guiding.recommend(run.front, settings.min_recall)
+    return float(run.front.p_wall[index]), float(run.front.p_space[index])
+
+
+def test_the_study_prints_both_tables_and_the_pattern():
+    app = open_with(STUDY)
+    assert len(app.table) == 2
+    first = app.table[0].value
+    assert len(first) == 15
+    # Table 4.1 of the source, drawing a at 3 px.
+    assert first["published, %"].tolist()[0] == "98.49"
+    assert "of 15 cases" in texts(app)
+
+
+# --- What must not kill a page --------------------------------------------------------
+
+
+def plan(wall=False):
+    """A sheet of 60 x 40 px, empty or with one wall across."""
+    image = np.full((40, 60), 255, np.uint8)
+    if wall:
+        image[18:22] = 0
+    return load_drawing(png(image), name="sheet.png")
+
+
+def building(*, prior_wall, true_wall, pose=(30.0, 8.0, math.pi / 2)):
+    """A building of one sheet, with or without a wall in the prior and in truth."""
+    sheet = plan()
+    wall = CorrectedMask(base=plan(wall=True).gray < 128)
+    return Building(
+        drawing=sheet,
+        walls=wall if prior_wall else empty_mask(sheet),
+        truth=wall if true_wall else empty_mask(sheet),
+        trajectory=Trajectory(poses=np.array([pose] * 3)),
+    )
+
+
+SAD = {
+    "no wall anywhere": (
+        {"prior_wall": False, "true_wall": False},
+        "no wall among the scored cells",
+    ),
+    "no wall in the drawing": (
+        {"prior_wall": False, "true_wall": True},
+        "No wall was found in the drawing",
+    ),
+    "nothing seen": (
+        {"prior_wall": True, "true_wall": True, "pose": (-500.0, -500.0, 0.0)},
+        "No reading saw any cell",
+    ),
+    "no wall in view": (
+        {"prior_wall": True, "true_wall": True, "pose": (30.0, 8.0, -math.pi / 2)},
+        "no wall among the scored cells",
+    ),
+}
+
+
+def of_one_sheet(page, settings, **parts):
+    """A page about a building of one sheet."""
+    app = open_with(page)
+    app.session_state["own"] = building(**parts)
+    app.session_state["choice"] = "own"
+    app.session_state["settings"] = settings
+    app.run()
+    assert not app.exception
+    return app
+
+
+@pytest.mark.parametrize("case", SAD)
+def test_a_sad_case_is_explained_and_no_page_dies(case):
+    parts, words = SAD[case]
+    app = of_one_sheet(SWEEP, Settings(range_px=20, cell_px=4), **parts)
+    assert words in texts(app)
+    for exploring in Exploring:
+        app.session_state["settings"] = Settings(
+            range_px=20, cell_px=4, exploring=exploring
+        )
+        app.switch_page(EXPLORER).run()
+        assert not app.exception
+        assert words in texts(app)
+    app.switch_page(BEST).run()
+    assert not app.exception
+    assert words in texts(app)
+    app.switch_page(STUDY).run()
+    assert not app.exception
+
+
+def test_a_drawing_that_cannot_be_studied_is_left_out_with_a_reason():
+    parts, _ = SAD["nothing seen"]
+    app = of_one_sheet(STUDY, Settings(), **parts)
+    assert "Drawing yours is left out: all 3 poses are" in texts(app)
+    assert len(app.table[0].value) == 15
+
+
+def test_undefined_precision_is_hatched_and_said():
+    """The robot looks away from the wall, so that no cell is declared occupied."""
+    away = {"prior_wall": True, "true_wall": True, "pose": (30.0, 8.0, -math.pi / 2)}
+    app = of_one_sheet(SWEEP, Settings(range_px=7, cell_px=4), **away)
+    assert f"Hatched: {surfaces.UNDEFINED}." in texts(app)
+
+
+# --- What the pages compute -----------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def run_b():
+    return compute.reference_run("b", Settings(cell_px=10))
+
+
+def test_an_axis_has_short_decimals_and_both_ends():
+    assert surfaces.axis(0.1) == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    assert len(surfaces.axis(0.01)) == 91
+
+
+@pytest.mark.parametrize("objective", Objective)
+def test_the_interpolated_surface_is_exact_at_the_tenths(run_b, objective):
+    settings = Settings(surface=Surface.DIFFERENCE, fineness=Fineness.TENTH)
+    view = surfaces.surface_view(run_b, settings, objective)
+    np.testing.assert_allclose(view.percent, 0.0, atol=1e-9)
+    assert view.unit == "points"
+
+
+def test_what_is_pointed_at_is_what_is_drawn(run_b):
+    settings = Settings(surface=Surface.EXACT, fineness=Fineness.TWENTIETH)
+    view = surfaces.surface_view(run_b, settings, Objective.RECALL)
+    values, words = view.targets()
+    at = values.index(0.3) * len(values) + values.index(0.85)
+    recall = run_b.scores(Prior(p_wall=0.3, p_space=0.85)).recall
+    assert words[at] == f"{100 * recall:.1f} %"
+
+
+def test_a_hole_in_a_surface_has_words():
+    view = surfaces.SurfaceView(
+        Objective.PRECISION,
+        Surface.EXACT,
+        [0.1, 0.55, 1.0],
+        np.array([[np.nan, 50.0, 60.0]] * 3),
+    )
+    assert view.has_gaps
+    assert view.range == (50.0, 60.0)
+    assert view.targets()[1][:2] == [surfaces.UNDEFINED, "50.0 %"]
+    assert figures.colour_range([view]) == (50.0, 100.0)
+
+
+def test_distance_is_the_tolerance_at_which_a_pair_is_near(run_b):
+    """Checked against `near_front` at every tenth pair, just below and at it."""
+    sweep = surfaces.source_sweep(run_b)
+    for i, p_wall in enumerate(sweep.p_wall.tolist()):
+        for j, p_space in enumerate(sweep.p_space.tolist()):
+            scores = run_b.scores(Prior(p_wall=p_wall, p_space=p_space))
+            gap = fronts.distance(run_b.front, scores)
+            assert near_front(sweep, run_b.front, min(gap + 1e-9, 1.0))[i, j]
+            if gap > 1e-6:
+                assert not near_front(sweep, run_b.front, gap - 1e-6)[i, j]
+
+
+def test_a_point_of_the_front_is_nearest_to_itself(run_b):
+    for i in range(len(run_b.front)):
+        pair = float(run_b.front.p_wall[i]), float(run_b.front.p_space[i])
+        scores = run_b.scores(Prior(p_wall=pair[0], p_space=pair[1]))
+        assert fronts.nearest(run_b.front, scores) == i
+        assert fronts.distance(run_b.front, scores) == 0.0
+
+
+def test_an_undefined_map_is_at_no_distance(run_b):
+    nothing = Scores(tp=0, fp=0, fn=3, tn=5)
+    assert math.isnan(fronts.distance(run_b.front, nothing))
+    assert fronts.nearest(run_b.front, nothing) == 0
+    assert maps.percent(nothing.precision) == maps.DASH
+
+
+@pytest.mark.parametrize("objectives", Objectives)
+def test_a_search_never_exceeds_the_exact_front(run_b, objectives):
+    settings = Settings(objectives=objectives, n_gen=30, pop_size=60, seed=3)
+    steps = list(compute.search(run_b, settings))
+    assert [step.number for step in steps] == list(range(1, 31))
+    assert max(step.share for step in steps) <= 1.0 + 1e-12
+    assert (steps[0].seen is None) == (objectives is Objectives.EXACT)
+    if objectives is Objectives.EXACT:
+        assert steps[-1].share > 0.99
