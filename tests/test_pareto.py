@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from occsim import Grid, ParameterError, UpdateRule, collect_evidence, load_sample
-from occsim.metrics import Region
+from occsim.metrics import Region, precision_of, recall_of
 from occsim.pareto import (
     ParetoFront,
     dominates,
@@ -20,7 +20,7 @@ from occsim.pareto import (
     set_c,
     surface_front,
 )
-from occsim.sweep import prior_surface, sweep_priors
+from occsim.sweep import PriorSurface, StepCount, prior_surface, sweep_priors
 from occsim.world import truth_cells
 from tests.test_metrics import log_of, logged_cases
 from tests.test_sweep import fused_score, sweep_of
@@ -34,6 +34,11 @@ def front(precision, recall):
     """A front of given points; the pairs only number them."""
     index = np.arange(len(recall)) / 100
     return ParetoFront(index, index, np.array(precision), np.array(recall))
+
+
+def scores_of(tp, fp, n_wall):
+    """Precision and recall of counts, NaN where undefined."""
+    return precision_of(tp, fp), recall_of(tp, n_wall - tp)
 
 
 def levels(evidence, cells, rule):
@@ -78,6 +83,57 @@ def test_exact_front_equals_brute_force(case, rule, region):
         for pair in ((exact.p_wall[i], exact.p_space[i]), (w0, s0), (w1, s1)):
             at = fused_score(*case, *pair, rule, region)
             assert (at.precision, at.recall) == (exact.precision[i], exact.recall[i])
+
+
+LEVELS = st.lists(st.integers(-22, 21), max_size=4).map(
+    lambda tenths: np.sort(np.array(tenths, dtype=np.float64) / 10)
+)
+STEPS = st.builds(
+    StepCount, st.integers(0, 2), LEVELS, LEVELS.map(lambda level: level + 0.05)
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(steps=st.tuples(STEPS, STEPS, STEPS, STEPS), missed=st.integers(0, 2))
+def test_front_of_any_steps_equals_brute_force(steps, missed):
+    """Counts that rise and fall at will, more of them than small maps have.
+
+    Steps lie at multiples of 0.05 nats between -2.2 and 2.15, the box from -2.31 to
+    2.20: the middles of the multiples are all states.
+    """
+    counts = [s.always + s.falling.size + s.rising.size for s in steps]
+    surface = PriorSurface(
+        *steps,
+        n_wall=counts[0] + counts[2] + missed,
+        n_space=counts[1] + counts[3],
+        scale=0.9,
+    )
+    values = 1 / (1 + np.exp(-np.arange(-2.225, 2.2, 0.05))) / 0.9
+    tp, fp = (x.ravel() for x in surface.counts(values[:, None], values[None, :]))
+    best = front_of(*np.zeros((2, tp.size)), *scores_of(tp, fp, surface.n_wall))
+    exact = surface_front(surface)
+    np.testing.assert_array_equal(exact.precision, best.precision)
+    np.testing.assert_array_equal(exact.recall, best.recall)
+    tp, fp = surface.counts(exact.p_wall, exact.p_space)
+    precision, recall = scores_of(tp, fp, surface.n_wall)
+    np.testing.assert_array_equal(precision, exact.precision)
+    np.testing.assert_array_equal(recall, exact.recall)
+
+
+def test_a_front_point_may_be_attained_only_at_a_tie():
+    """Three space cells: the prior of one half alone declares no false wall.
+
+    Cell 0, a wall, is read 0.1 once: k = 1, declared wall whatever the prior. Cell 1
+    is never read: false wall below one half. Cell 2 is read 0.1 and 0.9: S = 0,
+    l = -l_0, false wall above one half. At p_space = 5/9 both tie.
+    """
+    grid = Grid(height_px=1, width_px=3, cell_px=1)
+    evidence = log_of(grid, [{0: 0.1, 2: 0.1}, {2: 0.9}])
+    none, truth = np.zeros((1, 3), dtype=bool), np.array([[True, False, False]])
+    exact = exact_front(evidence, none, truth, region=Region.ALL)
+    assert (exact.precision, exact.recall) == (1.0, 1.0)
+    assert exact.p_space[0] == pytest.approx(5 / 9, abs=1e-9)
+    assert exact.rectangles[0, 3] - exact.rectangles[0, 2] < 1e-9
 
 
 @settings(max_examples=60, deadline=None)

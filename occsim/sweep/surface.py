@@ -258,8 +258,7 @@ def _last_true(holds: Callable[[IntArray], BoolArray], guess: IntArray) -> IntAr
         true = holds(middle)
         low = np.where(apart & true, middle, low)
         high = np.where(apart & ~true, middle, high)
-    # At the far end it may hold throughout.
-    return np.where(holds(high), high, low)
+    return low
 
 
 def _place_of(number: FloatArray | np.float64) -> IntArray:
