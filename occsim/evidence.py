@@ -144,6 +144,26 @@ def collect_evidence(
     ------
     ParameterError
         Where the grid does not have the size of the world.
+
+    Notes
+    -----
+    Exact for every pixel: a pixel counts as if its own ray, from the robot through its
+    centre, had been walked.
+
+    - A ray is stopped by the first wall pixel whose square it touches, be it only at a
+      corner: a diagonal line of pixels is closed.
+    - The sides of the cone and its reach belong to the field of view.
+    - A robot in a wall pixel meets the wall at distance 0 on all bearings; one that
+      stands on a wall's edge or corner, on those that lead into the wall. One outside
+      the image sees the walls in it.
+    - The pixel whose centre is the robot is always in view. It is object if it is wall,
+      else empty, even where rays without a hit are ignored.
+
+    References
+    ----------
+    .. [1] C. Georgiou, "Constructing informative Bayesian priors to improve SLAM map
+       quality", sec. 4.5; C. Georgiou, S. Anderson and T. Dodd, IJRR 2017,
+       doi 10.1177/0278364916687027.
     """
     if (grid.height_px, grid.width_px) != world.shape:
         raise ParameterError(

@@ -123,9 +123,10 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     empty, objects = np.broadcast_arrays(n_empty, n_object)
     # Eq. 4.22, first and second case: most cells are all empty or all object.
     log_odds = np.where(empty > 0, LOG_ODDS_MAX, LOG_ODDS_MIN)
-    mixed = (empty > 0) & (objects > 0)
+    mixed = np.flatnonzero((empty > 0) & (objects > 0))
     # Third case: the empty share. Clipping is our reading: unclipped, a cell 99 %
     # empty would count for more than an empty one.
-    q = empty[mixed] / (empty[mixed] + objects[mixed])
-    log_odds[mixed] = logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))
+    n_empty, n_object = empty.reshape(-1)[mixed], objects.reshape(-1)[mixed]
+    q = n_empty / (n_empty + n_object)
+    log_odds.reshape(-1)[mixed] = logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))
     return log_odds

@@ -62,9 +62,8 @@ def _bins_touched(faces: SeenFaces) -> tuple[IntArray, IntArray, BoolArray]:
     right = np.arctan2(faces.high, faces.depth) / _BIN_RAD
     # Wall that begins at the robot closes a whole quadrant.
     right = np.where(faces.depth == 0.0, float(_QUARTER), right)
-    # A grazing ray may pass a face's end into the next bin.
-    graze = 2.0 * EDGE_EPS / _BIN_RAD
-    first = np.maximum(np.floor(left - graze), -_QUARTER).astype(np.int64)
-    stop = np.minimum(np.ceil(right + graze), _QUARTER).astype(np.int64)
+    # Ends are not widened for grazing rays: what fills the bin up to its edge is, too.
+    first = np.maximum(np.floor(left), -_QUARTER).astype(np.int64)
+    stop = np.minimum(np.ceil(right), _QUARTER).astype(np.int64)
     face, place = ragged_ranges(first, stop)
     return face, place, (place >= left[face]) & (place + 1 <= right[face])
