@@ -17,11 +17,12 @@ SECTIONS = {
 
 lesson = shell.begin("pages/2_Your_building.py")
 shell.heading(lesson)
-chosen = state.choice()
+shown = state.choice(), state.can_undo(), state.can_redo()
 
 with st.container(horizontal=True, vertical_alignment="bottom"):
     controls.drawing_choice()
     st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
+    st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
     section = st.segmented_control(
         "Section",
         list(SECTIONS),
@@ -37,6 +38,7 @@ with notices:
     if state.message():
         st.error(state.message())
     uploads.pose_notice()
-if state.choice() != chosen:
-    # The first stroke on a sample made it the student's own: the list above says so.
+if (state.choice(), state.can_undo(), state.can_redo()) != shown:
+    # The first stroke on a sample made it the student's own, and can be undone: the
+    # row above has to say so.
     st.rerun()

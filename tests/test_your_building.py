@@ -115,6 +115,22 @@ def test_turning_and_undoing():
     assert app.session_state["choice"] == "a"
 
 
+def test_strokes_in_a_row_are_undone_and_done_again_as_one():
+    app = at("4 Corrections", with_rooms())
+    dots = [
+        Stroke(kind=StrokeKind.BRUSH, points=((50, y),), width_px=6) for y in (70, 80)
+    ]
+    for n in (1, 2):
+        strokes = encode_strokes(dots[:n])
+        app = commit(app, "board_walls", first=0, strokes=strokes)
+    app = press(app, "Undo")
+    assert own(app).walls.strokes == ()
+    app = press(app, "Redo")
+    assert own(app).walls.strokes == tuple(dots)
+    app = press(press(app, "Undo"), "Undo")
+    assert app.session_state["choice"] == "a"
+
+
 def test_a_rectangle_on_the_board_crops():
     app = commit(with_rooms(), "board_crop", points=[[0, 0, 1], [4 * 120, 4 * 100, 1]])
     app = press(app, "Crop to the rectangle")
@@ -165,6 +181,14 @@ def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
     field = slider.key.removeprefix("wall_")
     assert getattr(own(app).wall_params, field) == slider.max
     assert own(app).wall_mask[80, 50]
+
+
+def test_lengths_are_in_metres_where_the_scale_is_known():
+    app = launch("pages/1_Build_a_map.py")
+    # Sample a: doors of 40 px and 0.9 m, cells of 3 px.
+    assert app.slider(key="control_cell_px").label == "Cell size (px; 0.07 m)"
+    app = upload(app, "Drawing", "rooms.png", png(rooms()))
+    assert app.slider(key="control_cell_px").label == "Cell size (px)"
 
 
 def test_undone_strokes_leave_the_mask():

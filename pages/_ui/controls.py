@@ -18,9 +18,8 @@ def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     setting = TABLE[name]
     whole = isinstance(getattr(state.settings(), name), int)
     number = int if whole else float
-    unit = f" ({setting.unit})" if setting.unit else ""
     st.slider(
-        setting.label + unit,
+        setting.label + _unit(name),
         number(setting.low),
         number(setting.high),
         step=number(setting.step),
@@ -28,6 +27,15 @@ def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
         width=width,
         **state.bind(name),
     )
+
+
+def _unit(name: str) -> str:
+    """The unit of a setting; of a length, metres as well where the scale is known."""
+    unit = TABLE[name].unit
+    metres_per_px = state.building().metres_per_px
+    if unit == "px" and metres_per_px is not None:
+        return f" (px; {getattr(state.settings(), name) * metres_per_px:.2f} m)"
+    return f" ({unit})" if unit else ""
 
 
 def toggle(name: str) -> None:

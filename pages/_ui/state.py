@@ -1,4 +1,4 @@
-"""The only place that touches ``st.session_state``.
+"""The only place that touches ``st.session_state``, with ``workshop/state.py``.
 
 One student's state is small: the `Settings`, which drawing is chosen, the building of
 their own if they brought one, a message about the last thing that went wrong, and what
@@ -6,21 +6,19 @@ the map player was last sent. Everything else is computed from these.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 from urllib.parse import urlencode, urlsplit, urlunsplit
 
 import streamlit as st
 
-from occsim import OccsimError, Prior, Trajectory, load_sample, sample_names
+from occsim import OccsimError, Prior, load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
-from pages._ui.board import BoardDocument
 from pages._ui.player import PlayerDocument
 from pages._ui.settings import Settings, decode, encode, with_changes
 
 OWN = "own"
-Columns = dict[str, list[float | None]]
 PLAYER_KEY = "map_player"
 # The settings that are changed inside the player, not by a Streamlit control.
 PLAYED = ("p_wall", "p_space", "uninformative", "rule", "region", "overlay")
@@ -272,19 +270,26 @@ def _half_built() -> None:
     forget_player()
 
 
-# --- Your building: undo, where the student is, boards --------------------------------
+# --- Your building: undo, where the student is ----------------------------------------
 
-MAX_PAST = 10
-"""Edits of the building that can be taken back; each may hold a few megabytes."""
+MAX_PAST = 20
+"""Edits of the building that can be taken back; they share what they leave alone."""
 
 
-def edit(action: Callable[[], None]) -> None:
-    """Attempt an edit of the building that can be taken back."""
+def edit(action: Callable[[], None], tag: str = "") -> None:
+    """Attempt an edit of the building that can be taken back.
+
+    Edits in a row with the same `tag`, such as the strokes on one board, are one.
+    """
     state = st.session_state
     before = state.choice, state.own
     attempt(action)
-    if (state.choice, state.own) != before:
-        state.past = (*state.get("past", ()), before)[-MAX_PAST:]
+    if (state.choice, state.own) == before:
+        return
+    past = state.get("past", ())
+    if not (tag and past and past[-1][2] == tag):
+        state.past = (*past, (*before, tag))[-MAX_PAST:]
+    state.future = ()
 
 
 def can_undo() -> bool:
@@ -292,10 +297,25 @@ def can_undo() -> bool:
     return bool(st.session_state.get("past"))
 
 
+def can_redo() -> bool:
+    """Whether an edit that was taken back can be done again."""
+    return bool(st.session_state.get("future"))
+
+
 def undo() -> None:
     """Take the last edit of the building back."""
+    _step("past", "future")
+
+
+def redo() -> None:
+    """Do the edit again that was taken back last."""
+    _step("future", "past")
+
+
+def _step(source: str, target: str) -> None:
     state = st.session_state
-    *state.past, (name, own) = state.past
+    *state[source], (name, own, tag) = state[source]
+    state[target] = (*state.get(target, ()), (state.choice, state.own, tag))
     state.own = own
     choose(name)
 
@@ -332,93 +352,4 @@ def bind_view(
 def _take_view(name: str, key: str, then: Callable[[], None] | None) -> None:
     set_view(name, st.session_state[key])
     if then is not None:
-        edit(then)
-
-
-def bind_wall(field: str, change: Callable[[str, Any], None]) -> dict[str, Any]:
-    """Return ``key`` and ``on_change`` that tie a widget to a wall parameter."""
-    key = f"wall_{field}"
-    st.session_state[key] = getattr(building().wall_params, field)
-    return {
-        "key": key,
-        "on_change": lambda: edit(lambda: change(field, st.session_state[key])),
-    }
-
-
-def table(columns: Callable[[Trajectory], Columns]) -> tuple[int, Columns]:
-    """What the table of poses starts from, and a number that is new when it is new.
-
-    An editor keeps its edits only while it is given the same values again, so they stay
-    what they were until the trajectory is changed elsewhere.
-    """
-    state = st.session_state
-    rev, source, given, _ = state.get("table", (0, None, {}, {}))
-    if source is not building().trajectory:
-        rev, source, given = rev + 1, building().trajectory, None
-    if given is None:
-        given = columns(source)
-        state.table = rev, source, given, given
-    return rev, given
-
-
-def table_is_new(edited: Columns) -> bool:
-    """Whether the table holds other values than it did in the last run."""
-    return bool(st.session_state.table[3] != edited)
-
-
-def take_table(trajectory: Trajectory | None, edited: Columns) -> None:
-    """Take over an edited table; None where it is not a trajectory yet."""
-    state = st.session_state
-    rev, source, given, _ = state.table
-    if trajectory is not None:
-        edit_building(trajectory=trajectory)
-        source = trajectory
-    state.table = rev, source, given, edited
-
-
-@dataclass(frozen=True, slots=True)
-class Held:
-    """A drawing board: the document imposed on it, what it holds now, and of what."""
-
-    imposed: BoardDocument
-    current: BoardDocument
-    source: tuple[object, ...]
-
-
-def board_document(
-    key: str, source: tuple[object, ...], make: Callable[[], BoardDocument]
-) -> BoardDocument:
-    """What a board starts from; the same object until it must change from outside.
-
-    It must where the parts of the building that it shows are other objects than the
-    board's own edits left, where it comes back to the screen (Streamlit forgets the
-    state of what was not drawn in the last run), and where strokes are to be folded.
-    """
-    boards = st.session_state.setdefault("boards", {})
-    held = boards.get(key)
-    rev = held.imposed.rev + 1 if held else 1
-    if held is None or not _are_same(held.source, source):
-        document = replace(make(), rev=rev)
-    elif key not in st.session_state:
-        document = replace(held.current, rev=rev)
-    elif held.current.should_fold:
-        document = held.current.folded()
-    else:
-        return held.imposed
-    boards[key] = Held(document, document, source)
-    return document
-
-
-def _are_same(a: tuple[object, ...], b: tuple[object, ...]) -> bool:
-    return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
-
-
-def on_board(key: str) -> BoardDocument:
-    """What a board holds now."""
-    return st.session_state.boards[key].current
-
-
-def take_from_board(key: str, drawn: BoardDocument, source: tuple[object, ...]) -> None:
-    """Note what was drawn on a board, and the parts of the building it went into."""
-    boards = st.session_state.boards
-    boards[key] = replace(boards[key], current=drawn, source=source)
+        edit(then, tag=key)

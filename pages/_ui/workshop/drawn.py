@@ -5,6 +5,7 @@ from collections.abc import Callable
 from occsim.strokes import Stroke, pack_mask
 from pages._ui import compute, state
 from pages._ui.board import BoardDocument, BoardMode, BoardPoint, drawing_board
+from pages._ui.workshop import state as kept
 
 HEIGHT_PX = 520
 """The board and what stands above it fit in 720 px."""
@@ -19,13 +20,13 @@ def board(
     building = state.building()
     drawn = drawing_board(
         compute.backdrop(building.drawing),
-        state.board_document(key, source, make),
+        kept.board_document(key, source, make),
         mode=mode,
         key=key,
         metres_per_px=building.metres_per_px,
         height_px=HEIGHT_PX,
     )
-    return None if drawn is None or drawn == state.on_board(key) else drawn
+    return None if drawn is None or drawn == kept.on_board(key) else drawn
 
 
 def document(**contents: object) -> BoardDocument:
@@ -48,8 +49,8 @@ def mask_board(key: str, layer: str) -> None:
     # The board sends no strokes that are in its base already.
     strokes: tuple[Stroke, ...] = mask.strokes[: drawn.first] + drawn.strokes
     corrected = mask.with_strokes(strokes)
-    state.edit_building(**{layer: corrected})
-    state.take_from_board(key, drawn, (corrected,))
+    state.edit(lambda: state.edit_building(**{layer: corrected}), tag=key)
+    kept.take_from_board(key, drawn, (corrected,))
 
 
 def points_board(
@@ -64,6 +65,6 @@ def points_board(
     source = (state.building().drawing,)
     drawn = board(key, mode, source, document)
     if drawn is not None:
-        state.take_from_board(key, drawn, source)
+        kept.take_from_board(key, drawn, source)
         take(drawn.points)
-    return state.on_board(key).points
+    return kept.on_board(key).points

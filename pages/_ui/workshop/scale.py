@@ -40,7 +40,8 @@ def _take(ends: tuple[BoardPoint, ...]) -> None:
     door_px = math.dist(*((end.x_px, end.y_px) for end in ends)) if ends else 0.0
     if not door_px:
         return
-    state.edit_building(door_px=door_px, metres_per_px=_width_m() / door_px)
+    scale = {"door_px": door_px, "metres_per_px": _width_m() / door_px}
+    state.edit(lambda: state.edit_building(**scale), tag=KEY)
     bounds = TABLE["range_px"]
     state.change(range_px=round(min(max(door_px, bounds.low), bounds.high)))
 

@@ -12,6 +12,7 @@ from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads
 from pages._ui.board import BoardMode, BoardPoint
 from pages._ui.workshop import drawn, words
+from pages._ui.workshop import state as kept
 from pages._ui.workshop.poses import poses_figure
 
 KEY = "board_path"
@@ -99,10 +100,9 @@ def _board() -> None:
     if document is None:
         return
     sketch = tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points)
-    state.edit_building(sketch=sketch)
-    state.take_from_board(KEY, document, (mask, sketch))
-    if sketch:
-        state.attempt(_follow)
+    state.edit(lambda: state.edit_building(sketch=sketch), tag=KEY)
+    kept.take_from_board(KEY, document, (mask, sketch))
+    state.edit(_follow, tag=KEY)
 
 
 def _follow() -> None:
@@ -162,7 +162,7 @@ def _random() -> None:
 
 
 def _table() -> None:
-    rev, columns = state.table(pose_columns)
+    rev, columns = kept.table(pose_columns)
     edited = st.data_editor(
         columns,
         num_rows="dynamic",
@@ -174,13 +174,13 @@ def _table() -> None:
             "theta_deg": st.column_config.NumberColumn("heading (°)", format="%.1f"),
         },
     )
-    if state.table_is_new(edited):
-        state.take_table(None, edited)
-        state.attempt(partial(_take_table, edited))
+    if kept.table_is_new(edited):
+        kept.take_table(None, edited)
+        state.edit(partial(_take_table, edited), tag="table")
 
 
-def _take_table(edited: state.Columns) -> None:
-    state.take_table(trajectory_from_columns(edited), edited)
+def _take_table(edited: kept.Columns) -> None:
+    kept.take_table(trajectory_from_columns(edited), edited)
 
 
 # --- Files ----------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from occsim.building import CorrectedMask
 from occsim.walls import STAGE_NOTES, Slider, WallParams
 from pages._ui import compute, state
 from pages._ui.workshop import masks
+from pages._ui.workshop import state as kept
 
 COLUMNS = 5
 """Two rows of pictures, large enough to see a door leaf vanish."""
@@ -42,7 +43,7 @@ def _slider(slider: Slider) -> None:
         float(slider.low),
         float(slider.high),
         step=float(slider.step),
-        **state.bind_wall(slider.field, _change),
+        **kept.bind_wall(slider.field, _change),
     )
 
 
@@ -67,7 +68,7 @@ def _all_stages() -> None:
     st.toggle(
         "Straighten first",
         help="Turn a tilted drawing upright while its walls are looked for.",
-        **state.bind_wall("straighten", _change),
+        **kept.bind_wall("straighten", _change),
     )
     st.caption(
         "All lengths are estimated from the drawing's own lines. What still errs is "

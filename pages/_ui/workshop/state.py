@@ -1,0 +1,104 @@
+"""What the page "Your building" keeps of its boards and its table between runs."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import streamlit as st
+
+from occsim import Trajectory
+from pages._ui.board import BoardDocument
+from pages._ui.state import building, edit, edit_building
+
+Columns = dict[str, list[float | None]]
+
+
+def bind_wall(field: str, change: Callable[[str, Any], None]) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a widget to a wall parameter."""
+    key = f"wall_{field}"
+    st.session_state[key] = getattr(building().wall_params, field)
+    return {
+        "key": key,
+        "on_change": lambda: edit(
+            lambda: change(field, st.session_state[key]), tag=key
+        ),
+    }
+
+
+def table(columns: Callable[[Trajectory], Columns]) -> tuple[int, Columns]:
+    """What the table of poses starts from, and a number that is new when it is new.
+
+    An editor keeps its edits only while it is given the same values again, so they stay
+    what they were until the trajectory is changed elsewhere.
+    """
+    state = st.session_state
+    rev, source, given, _ = state.get("table", (0, None, {}, {}))
+    if source is not building().trajectory:
+        rev, source, given = rev + 1, building().trajectory, None
+    if given is None:
+        given = columns(source)
+        state.table = rev, source, given, given
+    return rev, given
+
+
+def table_is_new(edited: Columns) -> bool:
+    """Whether the table holds other values than it did in the last run."""
+    return bool(st.session_state.table[3] != edited)
+
+
+def take_table(trajectory: Trajectory | None, edited: Columns) -> None:
+    """Take over an edited table; None where it is not a trajectory yet."""
+    state = st.session_state
+    rev, source, given, _ = state.table
+    if trajectory is not None:
+        edit_building(trajectory=trajectory)
+        source = trajectory
+    state.table = rev, source, given, edited
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A drawing board: the document imposed on it, what it holds now, and of what."""
+
+    imposed: BoardDocument
+    current: BoardDocument
+    source: tuple[object, ...]
+
+
+def board_document(
+    key: str, source: tuple[object, ...], make: Callable[[], BoardDocument]
+) -> BoardDocument:
+    """What a board starts from; the same object until it must change from outside.
+
+    It must where the parts of the building that it shows are other objects than the
+    board's own edits left, where it comes back to the screen (Streamlit forgets the
+    state of what was not drawn in the last run), and where strokes are to be folded.
+    """
+    boards = st.session_state.setdefault("boards", {})
+    held = boards.get(key)
+    rev = held.imposed.rev + 1 if held else 1
+    if held is None or not _are_same(held.source, source):
+        document = replace(make(), rev=rev)
+    elif key not in st.session_state:
+        document = replace(held.current, rev=rev)
+    elif held.current.should_fold:
+        document = held.current.folded()
+    else:
+        return held.imposed
+    boards[key] = Held(document, document, source)
+    return document
+
+
+def _are_same(a: tuple[object, ...], b: tuple[object, ...]) -> bool:
+    return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
+
+
+def on_board(key: str) -> BoardDocument:
+    """What a board holds now."""
+    return st.session_state.boards[key].current
+
+
+def take_from_board(key: str, drawn: BoardDocument, source: tuple[object, ...]) -> None:
+    """Note what was drawn on a board, and the parts of the building it went into."""
+    boards = st.session_state.boards
+    boards[key] = replace(boards[key], current=drawn, source=source)
