@@ -2,23 +2,35 @@
 
 import numpy as np
 
-from occsim._types import BoolArray, ByteArray
+from occsim._types import BoolArray, ByteArray, FloatArray
+from occsim.walls.doors import Doors
 from occsim.walls.raster import Components, box, closed, components, depth, opened
 
 MAIN_SHARE = 0.25
 """Area of a piece, as a share of the largest one's, from which it spans a building."""
 
-STRAY_SHARE = 0.12
+STRAY_SHARE = 0.15
 """Area of a group, as a share of the largest one's, from which it is kept."""
 
 BRIDGE = 0.35, 1.5
 """Thickness of what joins two walls across a doorway, in walls."""
 
+SHORTEST_HOLLOW = 3.0
+"""Length over thickness of the shortest piece of hollow wall that stands alone."""
+
+LONG_PIECE = 0.6
+"""Length, in widest doorways, from which a hollow piece is a wall without a door."""
+
+NARROWEST = 0.25
+"""Narrowest doorway, as a share of the widest; furniture stands closer to walls."""
+
 LINE_WALL_SHARE = 0.1
 """Shortest line that is a wall by itself, as a share of the shorter side."""
 
 
-def connected_walls(walls: ByteArray, door_px: float, shortest_px: float) -> ByteArray:
+def connected_walls(
+    walls: ByteArray, mass: ByteArray, doors: Doors, shortest_px: float
+) -> ByteArray:
     """Return the walls without stray pieces.
 
     Pieces belong together if they touch, or face each other end-on across a doorway.
@@ -27,22 +39,42 @@ def connected_walls(walls: ByteArray, door_px: float, shortest_px: float) -> Byt
     ----------
     walls : ndarray of uint8, shape (h, w)
         Walls and stray pieces.
-    door_px : float
-        Widest doorway, px.
+    mass : ndarray of uint8, shape (h, w)
+        Where they are solid; short solid pieces are columns, short hollow ones chairs.
+    doors : Doors
+        Doors found, and the widest doorway.
     shortest_px : float
         Groups shorter than this are dropped, px.
     """
     if not walls.any():
         return walls
-    thick_px = 2 * float(np.percentile(depth(walls)[walls > 0], 95))
+    deep = depth(walls)
+    thick_px = 2 * float(np.percentile(deep[walls > 0], 95))
     pieces = components(walls)
-    kept = pieces.chosen(_in_building(pieces) & (pieces.area >= thick_px**2))
-    groups = components(kept | _bridges(kept, door_px, thick_px))
+    kept, sure = _pieces(pieces, deep, mass, doors)
+    bridges = _bridges(sure, doors.reach_px, thick_px)
+    through = components(_bridges(kept, doors.reach_px, thick_px))
+    bridges |= through.chosen(through.total(doors.openings) > 0)
+    groups = components(kept | bridges)
     area = groups.total(kept)
     area[0] = 0.0
     large = area >= STRAY_SHARE * area.max()
     large &= np.hypot(groups.width, groups.height) >= shortest_px
     return kept & groups.chosen(large)
+
+
+def _pieces(
+    pieces: Components, deep: FloatArray, mass: ByteArray, doors: Doors
+) -> tuple[ByteArray, ByteArray]:
+    """Return the pieces in the building, and those that need no door to be walls."""
+    width = np.maximum(4 * pieces.total(deep) / pieces.area - 2, 1.0)
+    solid = pieces.total(mass) >= pieces.area / 2
+    slender = pieces.area >= SHORTEST_HOLLOW * width**2
+    inside = _in_building(pieces)
+    long = pieces.longest >= LONG_PIECE * doors.reach_px
+    return pieces.chosen(inside & (solid | slender)), pieces.chosen(
+        inside & (solid | long)
+    )
 
 
 def _in_building(pieces: Components) -> BoolArray:
@@ -57,13 +89,17 @@ def _in_building(pieces: Components) -> BoolArray:
 
 
 def _bridges(walls: ByteArray, door_px: float, thick_px: float) -> ByteArray:
-    """Return the gaps between walls that face each other end-on."""
-    low, high = BRIDGE[0] * thick_px, BRIDGE[1] * thick_px
+    """Return the doorways between walls that face each other end-on."""
     along = components(closed(walls, box(door_px, 1)) & ~walls)
     down = components(closed(walls, box(1, door_px)) & ~walls)
-    return along.chosen((along.height >= low) & (along.height <= high)) | down.chosen(
-        (down.width >= low) & (down.width <= high)
-    )
+    found = np.zeros_like(walls)
+    for parts, across, length in (
+        (along, along.height, along.width),
+        (down, down.width, down.height),
+    ):
+        like_wall = (across >= BRIDGE[0] * thick_px) & (across <= BRIDGE[1] * thick_px)
+        found |= parts.chosen(like_wall & (length >= NARROWEST * door_px))
+    return found
 
 
 def line_walls(lines: ByteArray, extent_px: float) -> ByteArray:

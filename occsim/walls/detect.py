@@ -9,7 +9,7 @@ from occsim.drawing import Drawing
 from occsim.walls.arcs import find_swings
 from occsim.walls.bands import textured, wall_bands
 from occsim.walls.connect import connected_walls, line_walls
-from occsim.walls.doors import leaves
+from occsim.walls.doors import Doors, find_doors
 from occsim.walls.gaps import find_gaps
 from occsim.walls.hollow import gap_limits, hollow_walls
 from occsim.walls.ink import darkness, find_fills, find_ink
@@ -22,32 +22,24 @@ from occsim.walls.upright import Frame, working_frame
 HOLLOW_SHARE = 0.1
 """Share of all walls that hollow ones must have for a drawing to use them."""
 
-INKED_SHARE = 0.3
-"""Share of masses that ink must have for solid walls to be the drawing's own."""
+INKED_SHARE = 0.6
+"""Share of thick areas that must be ink for solid walls to be the drawing's own."""
 
 SPECK = 1.75
 """Side of the smallest mass that may be a column, in thinnest walls."""
-
-DOOR_REACH = 1.6
-"""Widest doorway, in usual leaves: two leaves, or a leaf and its frame."""
-
-DOOR_SHARE = 0.15
-"""Widest doorway where no leaf is found, as a share of the shorter side."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Strokes:
     """What is left of the ink once text and doors are out.
 
-    Lines, ink thicker than lines, grey and coloured fills, doorways to be left open,
-    and the widest doorway in px.
+    Lines, ink thicker than lines, grey and coloured fills, and the doors.
     """
 
     lines: ByteArray
     mass: ByteArray
     fills: ByteArray
-    doorways: ByteArray
-    door_px: float
+    doors: Doors
 
 
 def detect_walls(
@@ -79,15 +71,16 @@ def detect_walls(
     letters = _letters(ink, m)
     strokes = _strokes(frame.dark, ink & ~letters, letters, params, m)
     gaps, bands, walls = _walls(strokes, params, m)
-    found = connected_walls(walls, strokes.door_px, params.min_piece_px * m.scale)
+    shortest = params.min_piece_px * m.scale
+    found = connected_walls(walls, strokes.mass, strokes.doors, shortest)
     if found.sum() < m.extent * m.thin:
         walls = line_walls(strokes.lines, m.extent)
-        found = connected_walls(walls, strokes.door_px, params.min_piece_px * m.scale)
+        found = connected_walls(walls, walls, strokes.doors, shortest)
     stages = (
         Stage("Darkness", 255 - dark),
         _stage(frame, "Ink", ink),
         _stage(frame, "Text and symbols removed", ink & ~letters),
-        _stage(frame, "Doors removed", strokes.lines, strokes.doorways),
+        _stage(frame, "Doors removed", strokes.lines, strokes.doors.openings),
         _stage(frame, "Solid walls", strokes.mass),
         _stage(frame, "Filled and hatched walls", bands, strokes.fills),
         _stage(frame, "Hollow walls and windows", gaps[0], gaps[1]),
@@ -125,13 +118,10 @@ def _strokes(
     mass = _without_specks(opened(ink, box(m.thin)), m)
     fills = find_fills(dark, letters, m, params.fill_level)
     swings = find_swings(ink & ~dilated(mass, box(3)), m, params.door_fit)
-    leaf, doorways = leaves(swings, ink, m.line)
-    # A leaf shut against a wall must not take the wall along.
-    leaf &= ~opened(ink, box(1.5 * m.thin))
-    door_px = DOOR_SHARE * m.extent
-    if swings:
-        door_px = DOOR_REACH * float(np.median([s.radius_px for s in swings]))
-    return _Strokes(ink & ~leaf, mass & ~leaf, fills & ~leaf, doorways, door_px)
+    doors = find_doors(swings, ink, m)
+    return _Strokes(
+        ink & ~doors.leaves, mass & ~doors.leaves, fills & ~doors.leaves, doors
+    )
 
 
 def _without_specks(mass: ByteArray, m: Measures) -> ByteArray:
@@ -148,18 +138,18 @@ def _walls(
     votes = _votes(s, areas, m)
     limits = gap_limits(votes["gaps"], votes["areas"], params, m)
     solid = s.mass
-    if not limits.hollow and votes["mass"].sum() < INKED_SHARE * votes["areas"].sum():
+    if not limits.hollow and s.mass.sum() < INKED_SHARE * (s.mass | areas).sum():
         solid = np.zeros_like(solid)  # blots in the hatching, not walls
     bands = np.zeros_like(solid)
     if not limits.hollow:
         bands = wall_bands(areas & ~solid, solid, m)
     gaps = find_gaps(s.lines | solid | bands, limits.widest_px, m.line)
-    taken = gaps.parts.chosen(hollow_walls(gaps, s.doorways, limits))
+    taken = gaps.parts.chosen(hollow_walls(gaps, s.doors.openings, limits))
     faces = dilated(taken, box(2 * m.line + 1)) & s.lines
     walls = solid | bands | taken | faces
     if limits.hollow:
         bands = wall_bands(areas & ~walls, walls, m)
-    walls = opened(closed(walls | bands, box(m.line + 1)), box(m.thin))
+    walls = opened(closed(walls | bands, box(2)), box(m.thin))
     return (taken, gaps.parts.chosen(gaps.slenderness > 1)), bands, walls
 
 

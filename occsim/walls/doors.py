@@ -6,31 +6,59 @@ import numpy as np
 
 from occsim._types import BoolArray, ByteArray, IntArray
 from occsim.walls.arcs import Swing
+from occsim.walls.measures import Measures
+from occsim.walls.raster import box, opened
 
 SNAP_QUARTERS = 0.25
 """How close to a multiple of a right angle a leaf's bearing is taken for one."""
+
+DOOR_REACH = 1.6
+"""Widest doorway, in usual leaves: two leaves, or a leaf and its frame."""
+
+DOOR_SHARE = 0.15
+"""Widest doorway where no leaf is found, as a share of the shorter side."""
 
 LEAF_COVER = 0.8
 """Share of a leaf's length along which there must be ink."""
 
 
-def leaves(
-    swings: tuple[Swing, ...], ink: ByteArray, line_px: int
-) -> tuple[ByteArray, ByteArray]:
-    """Return the door leaves, and the openings that they close.
+@dataclass(frozen=True, eq=False)
+class Doors:
+    """Doors of a drawing.
+
+    Parameters
+    ----------
+    leaves, openings : ndarray of uint8, shape (h, w)
+        Where leaves stand open, and where they would stand shut.
+    reach_px : float
+        Widest doorway, px.
+    """
+
+    leaves: ByteArray
+    openings: ByteArray
+    reach_px: float
+
+
+def find_doors(swings: tuple[Swing, ...], ink: ByteArray, m: Measures) -> Doors:
+    """Return the doors that swings belong to.
 
     Of an arc's two ends, the leaf stands at the one that ink joins to the hinge; the
     opening lies towards the other.
 
-    Returns
-    -------
-    leaf, opening : ndarray of uint8, shape (h, w)
+    Parameters
+    ----------
+    swings : tuple of Swing
+        Swings found among the strokes.
+    ink : ndarray of uint8, shape (h, w)
+        Ink.
+    m : Measures
+        Lengths of the drawing.
     """
-    leaf, opening = np.zeros_like(ink), np.zeros_like(ink)
+    leaves, openings = np.zeros_like(ink), np.zeros_like(ink)
     for swing in swings:
         ends = [_snapped(b) for b in (swing.start_rad, swing.end_rad)]
-        thick = 0.1 * swing.radius_px + line_px
-        slack = max(1.5 * line_px, 0.04 * swing.radius_px)
+        thick = 0.1 * swing.radius_px + m.line
+        slack = max(1.5 * m.line, 0.04 * swing.radius_px)
         # A leaf's thickness lies on the side of the opening that it closes.
         bands = [
             _band(ink.shape, swing, ends[0], (0.06, 1.06), (-slack, thick)),
@@ -40,10 +68,14 @@ def leaves(
         best = int(np.argmax(cover))
         if cover[best] < LEAF_COVER:
             continue
-        bands[best].mark(leaf)
+        bands[best].mark(leaves)
         wide = (-2 * thick, 2 * thick)
-        _band(ink.shape, swing, ends[1 - best], (0.1, 0.9), wide).mark(opening)
-    return leaf, opening
+        _band(ink.shape, swing, ends[1 - best], (0.1, 0.9), wide).mark(openings)
+    # A leaf shut against a wall must not take the wall along.
+    leaves &= ~opened(ink, box(1.5 * m.thin))
+    radii = [swing.radius_px for swing in swings]
+    reach = DOOR_REACH * float(np.median(radii)) if radii else DOOR_SHARE * m.extent
+    return Doors(leaves, openings, reach)
 
 
 def _snapped(bearing: float) -> float:

@@ -96,7 +96,7 @@ def gap_limits(
 
 
 def _usual(votes: FloatArray) -> IntArray:
-    """Return the thicknesses that hold, with their neighbours, a fair share of votes."""
+    """Return the thicknesses that hold, with their neighbours, many of the votes."""
     padded = np.pad(votes, 1)
     near = padded[:-2] + padded[1:-1] + padded[2:]
     common = (near > USUAL_SHARE * votes.sum()) & (votes > near / 4)
@@ -127,7 +127,7 @@ def hollow_walls(gaps: Gaps, doorways: ByteArray, limits: GapLimits) -> BoolArra
     side_by_side = np.bincount(stack)[stack] > 1
     walls = _grown(gaps, walls, panes & side_by_side, 0.5)
     walls = _grown(gaps, walls, panes, 1.4)
-    return _filled(gaps, walls, slender)
+    return _filled(gaps, walls, limits.slenderness)
 
 
 def _candidates(
@@ -135,11 +135,11 @@ def _candidates(
 ) -> tuple[BoolArray, IntArray]:
     """Which gaps are shaped like a wall's, and the number of each gap's stack."""
     shaped = (gaps.steady >= STEADY) & (gaps.slenderness >= TREAD_SLENDERNESS)
+    shaped &= gaps.ajar <= 3 * gaps.width + 2  # open at its ends at most
     shaped[0] = False
     stack = gaps.stacks(shaped)
     treads = shaped & (np.bincount(stack)[stack] >= STACK)
     slender = shaped & ~treads & (gaps.slenderness >= limits.slenderness)
-    slender &= gaps.ajar <= 3 * gaps.width + 2  # open at its ends at most
     slender &= gaps.mass <= 2 * BESIDE_SHARE * gaps.length
     slender &= gaps.parts.total(doorways) < 0.5 * gaps.parts.area
     return slender, stack
@@ -168,9 +168,9 @@ def _grown(gaps: Gaps, walls: BoolArray, likely: BoolArray, least: float) -> Boo
     return walls
 
 
-def _filled(gaps: Gaps, walls: BoolArray, slender: BoolArray) -> BoolArray:
-    """Add bits of gap that lie inside walls."""
+def _filled(gaps: Gaps, walls: BoolArray, slender: float) -> BoolArray:
+    """Add short bits of gap that lie inside walls."""
     held = gaps.shared(walls) + gaps.mass
-    inside = (held >= ENCLOSED * gaps.boundary) & ~slender
+    inside = (held >= ENCLOSED * gaps.boundary) & (gaps.slenderness < slender)
     inside[0] = False
     return walls | inside

@@ -11,7 +11,7 @@ from occsim.walls.raster import Components
 
 OUTSIDE = 2  # what lies above the first and below the last row
 
-LINE_QUANTILE = 0.7
+LINE_QUANTILE = 0.5
 """Share of the length of all thin strokes that is no thicker than `line_px`."""
 
 SHORTEST_STRIP_PX = 12
