@@ -29,3 +29,4 @@ if state.settings().drawings is Drawings.ALL:
 else:
     sweeping.one_drawing(run)
     sweeping.sizes(run)
+controls.ending()

@@ -28,3 +28,4 @@ views = {
     Exploring.ALL: comparing.all_drawings,
 }
 views[state.settings().exploring](run)
+controls.ending()

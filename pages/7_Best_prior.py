@@ -34,3 +34,4 @@ with fifth:
 with sixth:
     guiding.prior_map(run, prior)
 guiding.cost(run, prior)
+controls.ending()

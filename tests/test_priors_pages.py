@@ -118,9 +118,18 @@ def test_a_button_chooses_a_point_of_the_front(label):
     assert "The chosen pair is on the front." in texts(app)
 
 
+def longest_front(cell_px):
+    """The reference drawing with most points on its front, and that front."""
+    settings = Settings(cell_px=cell_px)
+    runs = {name: compute.reference_run(name, settings) for name in sample_names()}
+    name = max(runs, key=lambda name: len(runs[name].front))
+    return name, runs[name].front
+
+
 def test_the_slider_walks_along_the_front():
-    app = open_with(EXPLORER)
-    front = compute.run(compute.sample("a"), app.session_state["settings"]).front
+    name, front = longest_front(5)
+    app = open_with(EXPLORER, cell_px=5)
+    app.selectbox(key="control_choice").select(name).run()
     slider = app.select_slider(key="front_point")
     other = 0 if slider.value else 1
     slider.set_value(other).run()
@@ -128,9 +137,17 @@ def test_the_slider_walks_along_the_front():
     assert pair == (front.p_wall[other], front.p_space[other])
 
 
+def test_a_front_of_one_point_is_said():
+    """Prior and truth are the same wall: where it is seen, one pair is best."""
+    app = of_one_sheet(
+        EXPLORER, Settings(range_px=20, cell_px=4), prior_wall=True, true_wall=True
+    )
+    assert "One pair attains the highest precision and the highest recall" in texts(app)
+
+
 def test_an_empty_set_c_is_said():
-    app = open_with(EXPLORER, min_recall=0.95, rule=UpdateRule.SUBTRACT_PRIOR)
-    app.selectbox(key="control_choice").select("c").run()
+    """Only the sides of walls that face the robot are seen: recall stays below 0.95."""
+    app = open_with(EXPLORER, min_recall=0.95, behind_hit=BehindHit.UNSEEN)
     assert "Set C is empty" in texts(app)
 
 

@@ -36,7 +36,9 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
     with region:
         count = near_counts(sweeps, all_fronts, settings.tolerance)
         figure = front_figures.region_figure(count, values, len(runs), state.pair())
-        st.plotly_chart(figure, config=CONFIG, **state.bind_chart("region"))
+        st.plotly_chart(
+            figure, config=CONFIG, **state.bind_chart("region", of_pairs=True)
+        )
         controls.slider("tolerance")
     st.markdown(verdict(count.tolist(), runs, settings.tolerance))
     _smallest(sweeps, all_fronts, values)
@@ -123,7 +125,7 @@ def table(runs: dict[str, Run], prior: Prior) -> str:
     for name, run in runs.items():
         scores = run.scores(prior)
         cells = [scores.precision, scores.recall, scores.f2]
-        cells.append(fronts.distance(run.front, scores))
         words = " | ".join(maps.percent(value) for value in cells)
-        lines.append(f"| {name}: {run.building.title} | {words} |")
+        gap = maps.tolerance(fronts.distance(run.front, scores))
+        lines.append(f"| {name}: {run.building.title} | {words} | {gap} |")
     return "\n".join(lines)

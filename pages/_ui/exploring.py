@@ -46,14 +46,14 @@ def _front_chart(run: Run) -> None:
 def _marks(run: Run) -> list[Mark]:
     source = Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1])
     wanted = (
-        ("uninformative", Prior.uninformative(), "square", palette.UNSEEN),
-        ("source's", source, "star", "white"),
-        ("chosen", state.prior(), "circle-open", palette.MARK),
+        ("uninformative", Prior.uninformative(), "square", palette.UNSEEN, None),
+        ("source's", source, "star", "white", SOURCE_PAIR),
+        ("chosen", state.prior(), "circle-open", palette.MARK, None),
     )
     marks = []
-    for name, prior, symbol, color in wanted:
+    for name, prior, *look in wanted:
         scores = run.scores(prior)
-        marks.append(Mark(name, scores.precision, scores.recall, symbol, color))
+        marks.append(Mark(name, scores.precision, scores.recall, *look))
     return marks
 
 
@@ -83,7 +83,9 @@ def _prior_space(run: Run) -> None:
     figure = front_figures.prior_space_figure(
         run.front, rectangles, state.pair(), state.settings().min_recall
     )
-    st.plotly_chart(figure, config=CONFIG, **state.bind_chart("prior_space"))
+    st.plotly_chart(
+        figure, config=CONFIG, **state.bind_chart("prior_space", of_pairs=True)
+    )
 
 
 def _bounds() -> tuple[float, float]:
@@ -127,6 +129,12 @@ def _where(run: Run) -> str:
             f"{n_inside} of {len(front)} points lie in set C (full circles); {pair} "
             "has the highest F2 of them and is recommended."
         ]
+    if len(front) == 1:
+        words.append(
+            "One pair attains the highest precision and the highest recall: the walls "
+            "found in this drawing are so good that nothing has to be given up. Try "
+            "another drawing or larger cells."
+        )
     gap = fronts.distance(front, run.scores(state.prior()))
     if gap == 0.0:
         words.append("The chosen pair is on the front.")

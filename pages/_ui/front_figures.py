@@ -11,6 +11,7 @@ from pages._ui import palette
 from pages._ui.choices import FrontAxes
 from pages._ui.figures import Pair, pair_marks, pair_targets, square_axes_of
 from pages._ui.fronts import scores_at
+from pages._ui.runs import SOURCE_PAIR
 from pages._ui.surfaces import HIGH, LOW
 
 FRONT_PX = 380
@@ -27,13 +28,17 @@ DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """One map of its own in a chart of fronts: a name, its scores, a symbol."""
+    """One map of its own in a chart of fronts: a name, its scores, a symbol.
+
+    A click chooses its ``pair``, if it has one.
+    """
 
     name: str
     precision: float
     recall: float
     symbol: str
     color: str = "white"
+    pair: Pair | None = None
 
 
 def place(axes: FrontAxes, precision: Any, recall: Any) -> tuple[Any, Any]:
@@ -49,8 +54,9 @@ def front_figure(
     """The exact front; full points are those of set C, a click chooses one."""
     shown = [mark for mark in marks if mark.precision > 0.0 and mark.recall > 0.0]
     figure = go.Figure(front_steps(front, axes, palette.SERIES[0], "exact front"))
-    figure.add_trace(front_points(front, axes, min_recall))
+    # The points last, on top: they are what is clicked.
     figure.add_traces([mark_trace(mark, axes) for mark in shown])
+    figure.add_trace(front_points(front, axes, min_recall))
     threshold(figure, axes, min_recall)
     points = scores_at(front) + [(mark.precision, mark.recall) for mark in shown]
     frame_front(figure, axes, points, "front")
@@ -113,6 +119,7 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
     return go.Scatter(
         x=[x],
         y=[y],
+        customdata=None if mark.pair is None else [list(mark.pair)],
         mode="markers",
         name=mark.name,
         marker=marker,
@@ -231,10 +238,13 @@ def overlay_figure(
     for i, one in enumerate(drawn):
         color = palette.SERIES[i % len(palette.SERIES)]
         points += scores_at(one.front)
-        for symbol, scores in (("star", one.source), ("circle-open", one.chosen)):
+        for symbol, scores, pair in (
+            ("star", one.source, SOURCE_PAIR),
+            ("circle-open", one.chosen, None),
+        ):
             if scores[0] > 0.0 and scores[1] > 0.0:
                 points.append(scores)
-                mark = mark_trace(Mark(one.name, *scores, symbol, color), axes)
+                mark = mark_trace(Mark(one.name, *scores, symbol, color, pair), axes)
                 figure.add_trace(mark.update(showlegend=False))
     frame_front(figure, axes, points, "overlay")
     return figure

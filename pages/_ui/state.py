@@ -195,14 +195,15 @@ def bind_index(key: str, index: int, choose: Callable[[int], None]) -> dict[str,
     return {"key": key, "on_change": lambda: choose(st.session_state[key])}
 
 
-def bind_chart(key: str) -> dict[str, Any]:
+def bind_chart(key: str, *, of_pairs: bool = False) -> dict[str, Any]:
     """Return what makes a click in a chart choose the prior pair of a point.
 
-    The pair is the point's customdata, or its place in a chart of p_wall over p_space.
+    The pair is the point's customdata or, in a chart `of_pairs`, its place: p_wall
+    over p_space.
     """
     return {
         "key": key,
-        "on_select": lambda: _take_click(key),
+        "on_select": lambda: _take_click(key, of_pairs),
         "selection_mode": "points",
     }
 
@@ -218,14 +219,13 @@ def kept_search(key: object) -> list[compute.SearchStep]:
     return steps if kept == key else []
 
 
-def _take_click(key: str) -> None:
+def _take_click(key: str, of_pairs: bool) -> None:
     clicked = st.session_state.setdefault("clicked", {})
-    points = value(key)["selection"]["points"]
-    if points:
-        point = points[-1]
-        clicked[key] = point.get("customdata") or (point["y"], point["x"])
+    for point in value(key)["selection"]["points"]:
+        place = (point["y"], point["x"]) if of_pairs else None
+        clicked[key] = point.get("customdata") or place
     # A second click on a point takes its selection away: it is still the one meant.
-    if key in clicked:
+    if clicked.get(key):
         p_wall, p_space = clicked[key]
         choose_pair(p_wall, p_space)
 

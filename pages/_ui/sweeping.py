@@ -46,7 +46,7 @@ def surface_chart(run: Run, objective: Objective) -> None:
         front=pairs(run.front) if settings.surface is Surface.EXACT else None,
     )
     key = f"surface_{objective.value}"
-    st.plotly_chart(figure, config=CONFIG, **state.bind_chart(key))
+    st.plotly_chart(figure, config=CONFIG, **state.bind_chart(key, of_pairs=True))
     if view.has_gaps:
         st.caption(f"Hatched: {surfaces.UNDEFINED}.")
 

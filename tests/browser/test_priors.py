@@ -11,6 +11,7 @@ from occsim import Prior
 from occsim.formats.prior_map import prior_npy
 from pages._ui import compute
 from pages._ui.settings import Settings
+from tests.test_priors_pages import longest_front
 
 pytestmark = pytest.mark.browser
 
@@ -109,8 +110,8 @@ def test_a_second_click_keeps_the_pair_and_pages_share_it(page, app_url):
 
 
 def test_a_click_on_the_front_shows_its_map(page, app_url):
-    open_page(page, app_url, "Pareto_explorer?drawing=e&cell_px=5")
-    front = compute.reference_run("e", Settings(cell_px=5)).front
+    name, front = longest_front(5)
+    open_page(page, app_url, f"Pareto_explorer?drawing={name}&cell_px=5")
     seconds = []
     for i in (0, len(front) - 1):
         at = 100 * float(front.recall[i]), 100 * float(front.precision[i])
@@ -120,6 +121,12 @@ def test_a_click_on_the_front_shows_its_map(page, app_url):
         assert chosen(page) == pytest.approx(expected, rel=1e-3)
         assert page.get_by_text("The chosen pair is on the front.").is_visible()
     print("map of a point after", [f"{1000 * s:.0f} ms" for s in seconds])
+    page.get_by_role("button", name="Best precision", exact=True).click()
+    settled(page)
+    # The point that was clicked last is still selected in the chart.
+    click_at(page, chart(page, 0), *at)
+    settled(page)
+    assert chosen(page) == pytest.approx(expected, rel=1e-3)
 
 
 def test_a_search_is_watched_stopped_and_replayed(page, app_url):
