@@ -1,4 +1,4 @@
-"""How hypothesis runs: without a clock everywhere, the same examples each time in CI."""
+"""How hypothesis runs: without a clock, and with the same examples each time in CI."""
 
 import os
 
