@@ -131,9 +131,9 @@ def _where(run: Run) -> str:
         ]
     if len(front) == 1:
         words.append(
-            "One pair attains the highest precision and the highest recall: the walls "
-            "found in this drawing are so good that nothing has to be given up. Try "
-            "another drawing or larger cells."
+            "One pair attains the highest precision and the highest recall: where the "
+            "prior is nearly right, nothing has to be given up. Try another drawing or "
+            "larger cells."
         )
     gap = fronts.distance(front, run.scores(state.prior()))
     if gap == 0.0:
