@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occsim._types import ByteArray, IntArray
+from occsim._types import ByteArray, FloatArray, IntArray
 from occsim.walls.measures import Measures
 from occsim.walls.raster import box, components, dilated, opened
 
@@ -18,7 +18,7 @@ STRAIGHT_SHARE = 0.026
 SPAN_RAD = np.radians(40.0), np.radians(115.0)
 """Angle that a swing covers; part of a quarter circle may be hidden by other ink."""
 
-TRIMS = 4
+TRIMS = 3
 """Rounds of fitting a circle and leaving out what strays most."""
 
 ON_ARC = 0.7
@@ -26,6 +26,12 @@ ON_ARC = 0.7
 
 FEWEST_PX = 8
 """Fewest pixels of a stroke to which a circle is fitted."""
+
+FAR_OFF = 4.0
+"""Typical stray, in allowed ones, from which trimming cannot save a fit."""
+
+FLATTEST = 0.25
+"""Least width over length of the box around a swing or two, or most of one."""
 
 MOST_STROKES = 2000
 """Strokes that are tried, the longest first: bounds the time on a page of noise."""
@@ -109,6 +115,8 @@ def _strokes(
     size = parts.longest
     likely = (size >= search.low / 2) & (size <= 1.1 * search.high)
     likely &= (parts.area >= FEWEST_PX) & (parts.area <= 4 * line_px * size)
+    # Two quarter circles in a row are twice as long as wide; a line is much longer.
+    likely &= np.minimum(parts.width, parts.height) >= FLATTEST * size
     likely[0] = False
     order = np.flatnonzero(likely)
     order = order[np.argsort(-size[order], kind="stable")][:MOST_STROKES]
@@ -124,7 +132,9 @@ def _swings_of(search: _Search, cols: IntArray, rows: IntArray) -> list[Swing]:
     whole = _swing(search, cols, rows)
     if whole:
         return [whole]
-    along = cols if np.ptp(cols) > np.ptp(rows) else rows
+    along, across = (cols, rows) if np.ptp(cols) > np.ptp(rows) else (rows, cols)
+    if np.ptp(along) < 1.5 * np.ptp(across):
+        return []
     first = along < (along.min() + along.max()) / 2
     halves = (_swing(search, cols[half], rows[half]) for half in (first, ~first))
     return [swing for swing in halves if swing]
@@ -181,19 +191,32 @@ def _fitted(
     """
     if len(cols) < FEWEST_PX:
         return None
-    x, y = cols.astype(np.float64), rows.astype(np.float64)
+    origin = float(cols.mean()), float(rows.mean())
+    x = np.asarray(cols - origin[0], dtype=np.float64)
+    y = np.asarray(rows - origin[1], dtype=np.float64)
     kept = np.ones(len(x), dtype=bool)
     for _ in range(TRIMS):
-        system = np.column_stack([2 * x[kept], 2 * y[kept], np.ones(kept.sum())])
-        squares = x[kept] ** 2 + y[kept] ** 2
-        (cx, cy, c), *_ = np.linalg.lstsq(system, squares, rcond=None)
-        radius = float(np.sqrt(max(c + cx * cx + cy * cy, 0.0)))
+        cx, cy, radius = _circle(x[kept], y[kept])
         stray = np.abs(np.hypot(x - cx, y - cy) - radius)
-        kept = stray <= max(search.stray_px(radius), float(np.median(stray)))
-    on_arc = float(np.mean(stray <= search.stray_px(radius)))
+        middle = float(np.partition(stray, len(stray) // 2)[len(stray) // 2])
+        if middle > FAR_OFF * search.stray_px(radius):
+            return None
+        kept = stray <= max(search.stray_px(radius), middle)
+    on_arc = np.count_nonzero(stray <= search.stray_px(radius)) / len(x)
     if on_arc < ON_ARC or not search.low <= radius <= search.high:
         return None
-    return float(cx), float(cy), radius
+    return cx + origin[0], cy + origin[1], radius
+
+
+def _circle(x: FloatArray, y: FloatArray) -> tuple[float, float, float]:
+    """Return centre and radius of the circle of least squares (Kasa's fit)."""
+    square = x * x + y * y
+    ones = np.ones_like(x)
+    system = np.asarray([2 * x, 2 * y, ones])
+    normal = system @ system.T
+    normal[np.diag_indices(3)] += 1e-9 * normal.trace()  # pixels in one line
+    cx, cy, c = np.linalg.solve(normal, system @ square)
+    return float(cx), float(cy), float(np.sqrt(max(c + cx * cx + cy * cy, 0.0)))
 
 
 def _with_span(

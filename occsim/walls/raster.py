@@ -1,6 +1,7 @@
 """Small operations on binary pictures: uint8, one where the thing is, else zero."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -56,25 +57,68 @@ def _bytes(image: object) -> ByteArray:
 class Components:
     """Connected components of a mask; number 0 is what lies outside the mask.
 
+    Everything is counted over the mask's own pixels, of which drawings have few.
+
     Parameters
     ----------
     labels : ndarray of int32, shape (H, W)
         Number of the component of each pixel.
-    left, top, width, height, area : ndarray of int64, shape (N,)
-        Bounding boxes and pixel counts, px.
+    places : ndarray of int64, shape (P,)
+        Flat places of the mask's pixels, ascending.
+    numbers : ndarray of int32, shape (P,)
+        Component of each of these pixels.
+    count : int
+        Number of components N, with what lies outside the mask.
     """
 
     labels: IntArray
-    left: IntArray
-    top: IntArray
-    width: IntArray
-    height: IntArray
-    area: IntArray
+    places: IntArray
+    numbers: IntArray
+    count: int
+
+    @cached_property
+    def area(self) -> IntArray:
+        """Pixels of each component, shape (N,); 1 for number 0, never divided by 0."""
+        area = np.bincount(self.numbers, minlength=self.count)
+        area[0] = 1
+        return np.asarray(area, dtype=np.int64)
+
+    @cached_property
+    def boxes(self) -> IntArray:
+        """Left, top, width and height of each component, px, shape (4, N)."""
+        boxes = np.zeros((4, self.count), dtype=np.int64)
+        if self.count > 1:
+            order = np.argsort(self.numbers, kind="stable")
+            rows, cols = np.divmod(self.places[order], self.labels.shape[1])
+            first = np.concatenate([[0], np.cumsum(self.area[1:-1])])
+            left, top = (np.minimum.reduceat(at, first) for at in (cols, rows))
+            right, bottom = (np.maximum.reduceat(at, first) for at in (cols, rows))
+            boxes[:, 1:] = left, top, right - left + 1, bottom - top + 1
+        return boxes
 
     @property
-    def count(self) -> int:
-        """Number of components, with what lies outside the mask."""
-        return len(self.area)
+    def left(self) -> IntArray:
+        """First column of each component."""
+        side: IntArray = self.boxes[0]
+        return side
+
+    @property
+    def top(self) -> IntArray:
+        """First row of each component."""
+        side: IntArray = self.boxes[1]
+        return side
+
+    @property
+    def width(self) -> IntArray:
+        """Number of columns from each component's first to its last."""
+        side: IntArray = self.boxes[2]
+        return side
+
+    @property
+    def height(self) -> IntArray:
+        """Number of rows from each component's first to its last."""
+        side: IntArray = self.boxes[3]
+        return side
 
     @property
     def longest(self) -> IntArray:
@@ -83,24 +127,22 @@ class Components:
 
     def total(self, image: ByteArray | FloatArray) -> FloatArray:
         """Return the sum of an image over each component, shape (N,)."""
-        weights = image.ravel().astype(np.float64)
-        sums = np.bincount(self.labels.ravel(), weights, self.count)
+        sums = np.bincount(self.numbers, image.ravel()[self.places], self.count)
         return np.asarray(sums, dtype=np.float64)
 
     def chosen(self, which: BoolArray) -> ByteArray:
         """Return the mask of the components for which `which` is true."""
-        table = as_bytes(which)
-        table[0] = 0
-        return table[self.labels]
+        mask = np.zeros(self.labels.shape, dtype=np.uint8)
+        mask.ravel()[self.places] = which[self.numbers]
+        return mask
 
 
 def components(mask: ByteArray, connectivity: int = 8) -> Components:
     """Return the connected components of a mask."""
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(
-        mask, connectivity=connectivity
-    )
-    left, top, width, height, area = np.asarray(stats, dtype=np.int64).T
-    return Components(np.asarray(labels), left, top, width, height, area)
+    count, labels = cv2.connectedComponents(mask, connectivity=connectivity)
+    places = np.flatnonzero(mask.view(bool))
+    numbered: IntArray = np.asarray(labels)  # int32, as OpenCV counts
+    return Components(numbered, places, numbered.ravel()[places], count)
 
 
 def depth(mask: ByteArray) -> FloatArray:

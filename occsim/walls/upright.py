@@ -73,19 +73,26 @@ def working_frame(dark: ByteArray, straighten: bool = True) -> Frame:
     if scale > 1:
         size = width * scale, height * scale
         large = np.asarray(cv2.resize(dark, size, interpolation=cv2.INTER_CUBIC))
-    tilt_deg = tilt(large) if straighten else 0.0
+    tilt_deg = tilt(dark, SMOOTHING_PX / scale) if straighten else 0.0
     if abs(tilt_deg) <= LEAST_TILT_DEG:
         return Frame(dark=large, scale=scale, turn=None, shape=dark.shape)
     turned, turn = _turned(dark, tilt_deg, scale)
     return Frame(dark=turned, scale=scale, turn=turn, shape=dark.shape)
 
 
-def tilt(dark: ByteArray) -> float:
+def tilt(dark: ByteArray, smoothing_px: float = SMOOTHING_PX) -> float:
     """Return the tilt of the lines in a drawing, degrees in [-45, 45).
 
     The direction, modulo a right angle, in which most of the contrast lies.
+
+    Parameters
+    ----------
+    dark : ndarray of uint8, shape (H, W)
+        Darkness.
+    smoothing_px : float
+        Standard deviation of the blur that hides the steps of oblique lines, px.
     """
-    smooth = cv2.GaussianBlur(dark, (0, 0), SMOOTHING_PX)
+    smooth = cv2.GaussianBlur(dark, (0, 0), smoothing_px)
     across = cv2.Scharr(smooth, cv2.CV_32F, 1, 0)
     down = cv2.Scharr(smooth, cv2.CV_32F, 0, 1)
     strength, angle = cv2.cartToPolar(across, down, angleInDegrees=True)
