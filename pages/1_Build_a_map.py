@@ -80,8 +80,4 @@ with why:
         st.markdown(EQUATIONS)
     with st.expander("What this model leaves out"):
         st.markdown(LIMITS)
-with st.container(horizontal=True, horizontal_alignment="right"):
-    with st.popover("Copy link"):
-        st.code(state.link(), language=None, wrap_lines=True)
-        st.caption("Opens this drawing with these settings; your own files stay here.")
-    st.button("Reset all", on_click=state.reset_all)
+controls.ending()
