@@ -21,8 +21,9 @@ shown = state.choice(), state.can_undo(), state.can_redo()
 
 with st.container(horizontal=True, vertical_alignment="bottom"):
     controls.drawing_choice()
-    st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
-    st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
+    with st.container(horizontal=True, width="content"):
+        st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
+        st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
     section = st.segmented_control(
         "Section",
         list(SECTIONS),

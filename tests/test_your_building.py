@@ -3,6 +3,7 @@
 import io
 import math
 import zipfile
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -198,6 +199,24 @@ def test_undone_strokes_leave_the_mask():
     app = commit(app, "board_walls", first=0, strokes=[])
     assert own(app).walls.strokes == ()
     assert not own(app).wall_mask[80, 50]
+
+
+def test_an_edit_that_the_next_stroke_cut_short_is_finished():
+    app = at("4 Corrections", with_rooms())
+    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
+    boards = app.session_state["boards"]
+    held = boards["board_walls"]
+    # As it stands where the board knows of the stroke and the building does not yet.
+    boards["board_walls"] = replace(
+        held,
+        current=replace(held.current, strokes=(dot,)),
+        source=("the mask that was about to be kept",),
+        before=held.source,
+    )
+    app.run()
+    assert not app.exception
+    assert own(app).walls.strokes == (dot,)
+    assert app.session_state["boards"]["board_walls"].imposed is held.imposed
 
 
 def test_a_commit_that_makes_no_sense_changes_nothing():

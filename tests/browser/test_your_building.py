@@ -119,6 +119,18 @@ def test_corrections_survive_other_pages_and_are_undone(workshop, page):
     assert not workshop.project().wall_mask[260, 245]
 
 
+def test_no_stroke_of_a_quick_hand_is_lost(workshop, page):
+    workshop.board(CORRECTIONS)
+    x, y = workshop.screen(100, 100)
+    for k in range(40):
+        page.mouse.move(x + 4 * k, y)
+        page.mouse.down()
+        page.mouse.move(x + 4 * k + 10, y + 30)
+        page.mouse.up()
+    workshop.says("40 corrections")
+    assert workshop.state()["strokes"] == 40
+
+
 def test_a_finger_draws_as_well(chromium, app_url):
     context = chromium.new_context(
         viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 
-from occsim.strokes import Stroke, pack_mask
+from occsim.building import CorrectedMask
+from occsim.strokes import pack_mask
 from pages._ui import compute, state
 from pages._ui.board import BoardDocument, BoardMode, BoardPoint, drawing_board
 from pages._ui.workshop import state as kept
@@ -10,23 +11,40 @@ from pages._ui.workshop import state as kept
 HEIGHT_PX = 520
 """The board and what stands above it fit in 720 px."""
 
-Source = tuple[object, ...]
-
 
 def board(
-    key: str, mode: BoardMode, source: Source, make: Callable[[], BoardDocument]
-) -> BoardDocument | None:
-    """Show a board; return what it holds if a hand has changed it."""
+    key: str,
+    mode: BoardMode,
+    source: Callable[[], kept.Source],
+    make: Callable[[], BoardDocument],
+    take: Callable[[BoardDocument], None],
+) -> BoardDocument:
+    """Show a board; return what it holds.
+
+    What a hand has changed is given to `take`: in the callback, before the script runs,
+    so that all of the page speaks of it; after the script, for a commit that came
+    without its callback; before it, for an edit that the last stroke cut short.
+    """
+
+    def take_new(drawn: BoardDocument | None) -> None:
+        if drawn is not None and drawn != kept.on_board(key):
+            take(drawn)
+
     building = state.building()
-    drawn = drawing_board(
+    cut_short = kept.unfinished(key, source())
+    if cut_short is not None:
+        take(cut_short)
+    returned = drawing_board(
         compute.backdrop(building.drawing),
-        kept.board_document(key, source, make),
+        kept.board_document(key, source(), make),
         mode=mode,
         key=key,
+        on_commit=lambda: take_new(kept.committed(key, mode)),
         metres_per_px=building.metres_per_px,
         height_px=HEIGHT_PX,
     )
-    return None if drawn is None or drawn == kept.on_board(key) else drawn
+    take_new(returned)
+    return kept.on_board(key)
 
 
 def document(**contents: object) -> BoardDocument:
@@ -37,34 +55,41 @@ def document(**contents: object) -> BoardDocument:
 
 def mask_board(key: str, layer: str) -> None:
     """Show the board that corrects a mask of the building, ``walls`` or ``truth``."""
-    mask = getattr(state.building(), layer)
-    drawn = board(
+
+    def mask() -> CorrectedMask:
+        return getattr(state.building(), layer)
+
+    def take(drawn: BoardDocument) -> None:
+        before = mask()
+        # The board sends no strokes that are in its base already.
+        after = before.with_strokes(before.strokes[: drawn.first] + drawn.strokes)
+        with kept.taking(key, drawn, (before,), (after,)):
+            state.edit(lambda: state.edit_building(**{layer: after}), tag=key)
+
+    board(
         key,
         BoardMode.WALLS,
-        (mask,),
-        lambda: document(base=pack_mask(mask.base), strokes=mask.strokes),
+        lambda: (mask(),),
+        lambda: document(base=pack_mask(mask().base), strokes=mask().strokes),
+        take,
     )
-    if drawn is None:
-        return
-    # The board sends no strokes that are in its base already.
-    strokes: tuple[Stroke, ...] = mask.strokes[: drawn.first] + drawn.strokes
-    corrected = mask.with_strokes(strokes)
-    state.edit(lambda: state.edit_building(**{layer: corrected}), tag=key)
-    kept.take_from_board(key, drawn, (corrected,))
 
 
 def points_board(
     key: str,
     mode: BoardMode,
-    take: Callable[[tuple[BoardPoint, ...]], None] = lambda points: None,
+    use: Callable[[tuple[BoardPoint, ...]], None] = lambda points: None,
 ) -> tuple[BoardPoint, ...]:
     """Show a board on which two points are set; return those that it holds.
 
-    Points that are new are given to `take`.
+    Points that are new are given to `use`.
     """
-    source = (state.building().drawing,)
-    drawn = board(key, mode, source, document)
-    if drawn is not None:
-        kept.take_from_board(key, drawn, source)
-        take(drawn.points)
-    return kept.on_board(key).points
+
+    def source() -> kept.Source:
+        return (state.building().drawing,)
+
+    def take(drawn: BoardDocument) -> None:
+        with kept.taking(key, drawn, source(), source()):
+            use(drawn.points)
+
+    return board(key, mode, source, document, take).points

@@ -25,9 +25,9 @@ def correct() -> None:
         drawn.mask_board("board_walls", "walls")
     with right:
         st.markdown(
-            "**See** what the detection took for wall, tinted. **Try** erasing a "
-            "bath tub and closing a broken wall. **Why:** the prior is made of "
-            "this mask, and of nothing else."
+            "**See** what the detection took for wall, tinted. **Try** to erase what "
+            "is none and to close what is broken. **Why:** the prior is made of this "
+            "mask, and of nothing else."
         )
         strokes = state.building().walls.strokes
         st.caption(words.count(len(strokes), "correction"))
@@ -39,6 +39,12 @@ def correct() -> None:
             width="stretch",
         )
         agreement()
+        with st.expander("Leave a false wall in: will the map show it?"):
+            st.markdown(
+                "Not where the robot looks: with *subtract prior* the first reading "
+                "cancels the prior, and at p_wall = 0.2 one clear reading outweighs it "
+                "with *prior once* as well. Where it never looks, the error stays."
+            )
         _download(state.building().wall_mask, "walls.png", "Wall mask (PNG)")
 
 

@@ -8,7 +8,7 @@ import plotly.graph_objects as go
 from occsim.building import Building
 from pages._ui import compute, palette
 
-MANY = 2000
+MANY = 800
 """Arrows beyond this number would cover the drawing and slow the page."""
 
 
@@ -61,7 +61,7 @@ def _add_poses(
     x, y, theta = building.trajectory.poses[chosen].T
     is_free = what == "free"
     few = len(x) <= MANY
-    marker = {"color": colour, "size": 9 if few else 4}
+    marker = {"color": colour, "size": 8 if few else 4}
     if few:
         # Plotly's arrow points up at 0 and turns clockwise, as headings do.
         degrees = [math.degrees(angle) for angle in theta]

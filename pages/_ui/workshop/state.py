@@ -1,16 +1,19 @@
 """What the page "Your building" keeps of its boards and its table between runs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
 import streamlit as st
 
 from occsim import Trajectory
-from pages._ui.board import BoardDocument
+from pages._ui.board import BoardDocument, BoardMode, decode_commit
 from pages._ui.state import building, edit, edit_building
 
 Columns = dict[str, list[float | None]]
+Source = tuple[object, ...]
+"""Parts of a building that a board shows."""
 
 
 def bind_wall(field: str, change: Callable[[str, Any], None]) -> dict[str, Any]:
@@ -58,15 +61,21 @@ def take_table(trajectory: Trajectory | None, edited: Columns) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A drawing board: the document imposed on it, what it holds now, and of what."""
+    """A drawing board: the document imposed on it, what it holds now, and of what.
+
+    The next stroke may stop a script at any look at the session's state, even between
+    two changes that belong together. So that none is lost, `before` says of which parts
+    of the building an edit was begun that may not have reached it.
+    """
 
     imposed: BoardDocument
     current: BoardDocument
-    source: tuple[object, ...]
+    source: Source
+    before: Source | None = None
 
 
 def board_document(
-    key: str, source: tuple[object, ...], make: Callable[[], BoardDocument]
+    key: str, source: Source, make: Callable[[], BoardDocument]
 ) -> BoardDocument:
     """What a board starts from; the same object until it must change from outside.
 
@@ -89,8 +98,14 @@ def board_document(
     return document
 
 
-def _are_same(a: tuple[object, ...], b: tuple[object, ...]) -> bool:
+def _are_same(a: Source, b: Source) -> bool:
     return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
+
+
+def committed(key: str, mode: BoardMode) -> BoardDocument | None:
+    """What the last commit of a board says, for use in its callback."""
+    says = st.session_state.get(key, {}).get("committed")
+    return decode_commit(says, st.session_state.boards[key].imposed, mode)
 
 
 def on_board(key: str) -> BoardDocument:
@@ -98,7 +113,24 @@ def on_board(key: str) -> BoardDocument:
     return st.session_state.boards[key].current
 
 
-def take_from_board(key: str, drawn: BoardDocument, source: tuple[object, ...]) -> None:
-    """Note what was drawn on a board, and the parts of the building it went into."""
+@contextmanager
+def taking(
+    key: str, drawn: BoardDocument, before: Source, after: Source
+) -> Iterator[None]:
+    """Note what was drawn on a board, around the edit that brings it to the building.
+
+    `before` and `after` are the parts of the building that the board shows.
+    """
     boards = st.session_state.boards
-    boards[key] = replace(boards[key], current=drawn, source=source)
+    held = replace(boards[key], current=drawn, source=after)
+    boards[key] = replace(held, before=before)
+    yield
+    boards[key] = held
+
+
+def unfinished(key: str, source: Source) -> BoardDocument | None:
+    """What was drawn on a board and did not reach the building, if anything."""
+    held = st.session_state.get("boards", {}).get(key)
+    if held is None or held.before is None or not _are_same(held.before, source):
+        return None
+    return held.current

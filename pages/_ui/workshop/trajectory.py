@@ -10,7 +10,7 @@ from occsim.formats.pose_table import pose_columns, trajectory_from_columns
 from occsim.strokes import pack_mask
 from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads
-from pages._ui.board import BoardMode, BoardPoint
+from pages._ui.board import BoardDocument, BoardMode, BoardPoint
 from pages._ui.workshop import drawn, words
 from pages._ui.workshop import state as kept
 from pages._ui.workshop.poses import poses_figure
@@ -23,6 +23,7 @@ HEADINGS = {
     HeadingMode.FOUR: "All four",
 }
 UNITS = {True: "Degrees", False: "Radians"}
+Sketch = tuple[tuple[float, float, bool], ...]
 
 
 def show() -> None:
@@ -81,41 +82,52 @@ def _sketch() -> None:
 
 
 def _bound(name: str, default: object) -> dict[str, object]:
-    return state.bind_view(name, default, _follow)
+    return state.bind_view(name, default, _follow_again)
+
+
+def _follow_again() -> None:
+    if state.building().sketch:
+        _follow(state.building().sketch)
 
 
 def _board() -> None:
-    """Show the board and let the robot follow what is drawn."""
+    """Show the board; the robot follows what is drawn on it."""
+    drawn.board(KEY, BoardMode.TRAJECTORY, _shown, _sketched, _take_sketch)
+
+
+def _shown() -> kept.Source:
     building = state.building()
-    mask = building.truth or building.walls
-    corners = tuple(
-        BoardPoint(x_px=x, y_px=y, is_waypoint=w) for x, y, w in building.sketch
+    return building.truth or building.walls, building.sketch
+
+
+def _sketched() -> BoardDocument:
+    building = state.building()
+    points = (
+        BoardPoint(x_px=x, y_px=y, is_waypoint=is_waypoint)
+        for x, y, is_waypoint in building.sketch
     )
-    document = drawn.board(
-        KEY,
-        BoardMode.TRAJECTORY,
-        (mask, building.sketch),
-        lambda: drawn.document(base=pack_mask(mask.mask), points=corners),
-    )
-    if document is None:
-        return
+    mask = pack_mask(building.world.occupied)
+    return drawn.document(base=mask, points=tuple(points))
+
+
+def _take_sketch(document: BoardDocument) -> None:
     sketch = tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points)
-    state.edit(lambda: state.edit_building(sketch=sketch), tag=KEY)
-    kept.take_from_board(KEY, document, (mask, sketch))
-    state.edit(_follow, tag=KEY)
+    mask, before = _shown()
+    with kept.taking(KEY, document, (mask, before), (mask, sketch)):
+        state.edit(partial(_follow, sketch), tag=KEY)
 
 
-def _follow() -> None:
-    """Take the poses along the sketch as the trajectory."""
-    sketch = state.building().sketch
+def _follow(sketch: Sketch) -> None:
+    """Take a sketch and the poses along it; none at all leaves the trajectory."""
+    changes: dict[str, object] = {"sketch": sketch}
     if sketch:
-        trajectory = sketched_trajectory(
+        changes["trajectory"] = sketched_trajectory(
             sketch,
             state.view("step_px", 10),
             state.view("heading_mode", HeadingMode.ALONG),
             state.view("turn", False),
         )
-        state.edit_building(trajectory=trajectory)
+    state.edit_building(**changes)
 
 
 # --- Plan -----------------------------------------------------------------------------
