@@ -10,7 +10,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from occsim import HeadingMode, TrajectoryFormat, dump_trajectory, load_sample
+from occsim import (
+    HeadingMode,
+    Trajectory,
+    TrajectoryFormat,
+    dump_trajectory,
+    load_sample,
+)
 from occsim.formats.project import Project, dump_project
 from occsim.strokes import Stroke, StrokeKind, encode_strokes
 from pages._ui.workshop import poses
@@ -313,11 +319,19 @@ def test_the_unit_of_the_angles_may_be_told_afterwards():
     np.testing.assert_allclose(own(app).trajectory.poses[:, 2], [math.pi / 2, math.pi])
 
 
-def test_many_poses_are_drawn_as_points():
-    building = own(with_rooms())
-    figure = poses.poses_figure(building, 400)
-    assert len(figure.data) == 3
-    assert figure.data[1].marker.symbol == "arrow"
+def test_poses_are_marked_where_they_cannot_be():
+    # In a room, in the outer wall, 4 px left of the drawing, and far off.
+    rows = [[60, 80, 0], [110, 12, 1], [-4, 30, 2], [9e5, 30, 0]]
+    plan = replace(own(with_rooms()), trajectory=Trajectory(poses=rows))
+    figure = poses.poses_figure(plan, 400)
+    _, free, bad = figure.data
+    assert (list(free.x), free.marker.symbol) == ([60], "arrow")
+    assert (list(bad.x), bad.marker.symbol) == ([110, -4, 9e5], "x")
+    left, right = figure.layout.xaxis.range
+    assert left < -4
+    assert right == 220
+    many = replace(plan, trajectory=Trajectory(poses=rows[:1] * (poses.MANY + 1)))
+    assert poses.poses_figure(many, 400).data[1].marker.symbol is None
 
 
 # --- Keep -----------------------------------------------------------------------------

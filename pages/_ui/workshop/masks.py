@@ -10,6 +10,9 @@ from occsim.walls import MaskError
 from pages._ui import compute, palette, state, uploads
 from pages._ui.workshop import drawn, words
 
+PICTURE_PX = drawn.HEIGHT_PX - 80
+"""Height of a picture with its caption in a frame as high as the board."""
+
 ERROR_COLOURS = {
     MaskError.FREE: palette.FREE,
     MaskError.HIT: palette.HIT,
@@ -83,11 +86,7 @@ def truth() -> None:
         if has_truth:
             drawn.mask_board("board_truth", "truth")
         else:
-            with st.container(height=drawn.HEIGHT_PX, border=True):
-                st.image(
-                    mask_png(state.building().wall_mask),
-                    caption="Without a ground truth the wall mask serves as the world.",
-                )
+            _world_picture()
     with right:
         _words_of_truth(has_truth)
         for label, make in (
@@ -106,6 +105,20 @@ def truth() -> None:
         if has_truth:
             mask: Any = state.building().truth
             _download(mask.mask, "ground_truth.png", "Ground truth (PNG)")
+
+
+def _world_picture() -> None:
+    """Show the wall mask that serves as the world, as large as the board would be."""
+    height, width = state.building().drawing.shape
+    shown_px = min(900, PICTURE_PX * width // height)
+    with st.container(
+        height=drawn.HEIGHT_PX, border=True, horizontal_alignment="center"
+    ):
+        st.image(
+            mask_png(state.building().wall_mask),
+            caption="Without a ground truth the wall mask serves as the world.",
+            width=shown_px,
+        )
 
 
 def _words_of_truth(has_truth: bool) -> None:

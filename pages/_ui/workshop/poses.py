@@ -2,6 +2,7 @@
 
 import base64
 import math
+from collections.abc import Iterable
 
 import plotly.graph_objects as go
 
@@ -41,9 +42,11 @@ def poses_figure(building: Building, height_px: int) -> go.Figure:
         opacity=0.6,
         layer="below",
     )
-    figure.update_xaxes(range=[0, width], visible=False, constrain="domain")
+    left, right = _reach(x, width)
+    top, bottom = _reach(y, height)
+    figure.update_xaxes(range=[left, right], visible=False, constrain="domain")
     figure.update_yaxes(
-        range=[height, 0], visible=False, scaleanchor="x", constrain="domain"
+        range=[bottom, top], visible=False, scaleanchor="x", constrain="domain"
     )
     figure.update_layout(
         height=height_px,
@@ -53,6 +56,14 @@ def poses_figure(building: Building, height_px: int) -> go.Figure:
         uirevision=building.drawing.digest,
     )
     return figure
+
+
+def _reach(places: Iterable[float], size: int) -> tuple[float, float]:
+    """From where to where to show: the drawing, and poses not far outside of it."""
+    margin, edge = 0.25 * size, 0.02 * size
+    outside = [p for p in places if -margin <= p < 0 or size < p <= size + margin]
+    low, high = min(outside, default=0.0), max(outside, default=0.0)
+    return (low - edge if low < 0 else 0.0), (high + edge if high > size else size)
 
 
 def _add_poses(

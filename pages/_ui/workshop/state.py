@@ -49,13 +49,18 @@ def table_is_new(edited: Columns) -> bool:
     return bool(st.session_state.table[3] != edited)
 
 
-def take_table(trajectory: Trajectory | None, edited: Columns) -> None:
-    """Take over an edited table; None where it is not a trajectory yet."""
+def take_table(trajectory: Trajectory) -> None:
+    """Take over the trajectory of an edited table, which stays as it is."""
+    state = st.session_state
+    rev, _, given, last = state.table
+    edit_building(trajectory=trajectory)
+    state.table = rev, trajectory, given, last
+
+
+def note_table(edited: Columns) -> None:
+    """Note what the table holds, so that it is taken, or complained of, once."""
     state = st.session_state
     rev, source, given, _ = state.table
-    if trajectory is not None:
-        edit_building(trajectory=trajectory)
-        source = trajectory
     state.table = rev, source, given, edited
 
 

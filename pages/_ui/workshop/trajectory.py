@@ -187,12 +187,12 @@ def _table() -> None:
         },
     )
     if kept.table_is_new(edited):
-        kept.take_table(None, edited)
         state.edit(partial(_take_table, edited), tag="table")
+        kept.note_table(edited)
 
 
 def _take_table(edited: kept.Columns) -> None:
-    kept.take_table(trajectory_from_columns(edited), edited)
+    kept.take_table(trajectory_from_columns(edited))
 
 
 # --- Files ----------------------------------------------------------------------------
@@ -212,8 +212,9 @@ def _files() -> None:
         format_func=UNITS.__getitem__,
         horizontal=True,
         disabled=file_format is TrajectoryFormat.TUM,
-        help="TUM files hold quaternions.",
-        **state.bind_view("pose_degrees", True),
+        help="An NPY file does not say which, so it has to be told when it is read; a "
+        "TUM file holds quaternions.",
+        **state.bind_view("pose_degrees", False),
     )
     trajectory: Trajectory = state.building().trajectory
     st.download_button(
