@@ -24,6 +24,9 @@ TRIMS = 3
 ON_ARC = 0.7
 """Share of a stroke's pixels that must lie on the circle."""
 
+AROUND = 0.5
+"""Share of the rest of its circle with ink on it from which an arc is no swing."""
+
 FEWEST_PX = 8
 """Fewest pixels of a stroke to which a circle is fitted."""
 
@@ -162,7 +165,22 @@ def _swing(search: _Search, cols: IntArray, rows: IntArray) -> Swing | None:
     towards = np.arctan2(rows.mean() - first[1], cols.mean() - first[0])
     cols, rows = _near_arc(search, first, float(towards))
     second = _fitted(search, cols, rows)
-    return _with_span(cols, rows, second) if second else None
+    swing = _with_span(cols, rows, second) if second else None
+    return None if swing is None or _goes_on(search, swing) else swing
+
+
+def _goes_on(search: _Search, swing: Swing) -> bool:
+    """Whether ink goes on around the circle: a table, not a door."""
+    rest = 2 * np.pi - (swing.end_rad - swing.start_rad)
+    bearing = swing.end_rad + rest * np.linspace(0.15, 0.85, 48)
+    stray = search.stray_px(swing.radius_px)
+    radius = swing.radius_px + np.linspace(-stray, stray, 5)[:, None]
+    cols = np.rint(swing.x_px + radius * np.cos(bearing)).astype(np.int64)
+    rows = np.rint(swing.y_px + radius * np.sin(bearing)).astype(np.int64)
+    height, width = search.thin.shape
+    inside = (rows >= 0) & (rows < height) & (cols >= 0) & (cols < width)
+    ink = search.thin[np.where(inside, rows, 0), np.where(inside, cols, 0)] > 0
+    return bool(np.mean(np.any(ink & inside, axis=0)) > AROUND)
 
 
 def _near_arc(

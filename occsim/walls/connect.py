@@ -24,6 +24,12 @@ LONG_PIECE = 0.6
 NARROWEST = 0.25
 """Narrowest doorway, as a share of the widest; furniture stands closer to walls."""
 
+CRACK = 0.6
+"""Longest crack in a wall, in walls: what blur or a crossing line has eaten."""
+
+OUTLINE_SHARE = 0.5
+"""Reach of a building of single lines, as a share of that of all lines."""
+
 LINE_WALL_SHARE = 0.1
 """Shortest line that is a wall by itself, as a share of the shorter side."""
 
@@ -98,14 +104,35 @@ def _bridges(walls: ByteArray, door_px: float, thick_px: float) -> ByteArray:
         (down, down.width, down.height),
     ):
         like_wall = (across >= BRIDGE[0] * thick_px) & (across <= BRIDGE[1] * thick_px)
-        found |= parts.chosen(like_wall & (length >= NARROWEST * door_px))
+        doorway = (length >= NARROWEST * door_px) | (length <= CRACK * thick_px)
+        found |= parts.chosen(like_wall & doorway)
     return found
 
 
-def line_walls(lines: ByteArray, extent_px: float) -> ByteArray:
-    """Return long straight lines: the walls of a drawing that has no thick ones."""
+def line_walls(lines: ByteArray, doors: Doors, extent_px: float) -> ByteArray:
+    """Return networks of long lines: the walls of a drawing that has no thick ones.
+
+    Parameters
+    ----------
+    lines : ndarray of uint8, shape (h, w)
+        Ink without text and door leaves.
+    doors : Doors
+        Doors found; their swings are no walls.
+    extent_px : float
+        Shorter side of the drawing, px.
+    """
+    strokes = lines & ~doors.swings
     length = LINE_WALL_SHARE * extent_px
-    long = opened(lines, box(length, 1)) | opened(lines, box(1, length))
-    groups = components(lines)
+    long = opened(strokes, box(length, 1)) | opened(strokes, box(1, length))
+    groups = components(strokes)
+    if groups.count == 1:
+        return strokes
+    right, bottom = groups.left + groups.width, groups.top + groups.height
+    whole = max(
+        right[1:].max() - groups.left[1:].min(), bottom[1:].max() - groups.top[1:].min()
+    )
+    if groups.longest.max() < OUTLINE_SHARE * whole:
+        return np.zeros_like(strokes)  # furniture does not reach far
+    far = groups.longest >= OUTLINE_SHARE / 2 * whole
     # Oblique walls hang on upright ones.
-    return lines & groups.chosen(groups.total(long) > 0)
+    return groups.chosen(far & (groups.total(long) > 0))

@@ -74,7 +74,7 @@ def detect_walls(
     shortest = params.min_piece_px * m.scale
     found = connected_walls(walls, strokes.mass, strokes.doors, shortest)
     if found.sum() < m.extent * m.thin:
-        walls = line_walls(strokes.lines, m.extent)
+        walls = line_walls(strokes.lines, strokes.doors, m.extent)
         found = connected_walls(walls, walls, strokes.doors, shortest)
     stages = (
         Stage("Darkness", 255 - dark),

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occsim._types import BoolArray, ByteArray, IntArray
+from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
 from occsim.walls.arcs import Swing
 from occsim.walls.measures import Measures
 from occsim.walls.raster import box, opened
@@ -18,6 +18,9 @@ DOOR_REACH = 1.6
 DOOR_SHARE = 0.15
 """Widest doorway where no leaf is found, as a share of the shorter side."""
 
+LEAF_SHARE = 0.1
+"""Thickness of a leaf as drawn, as a share of its length; what is thicker is wall."""
+
 LEAF_COVER = 0.8
 """Share of a leaf's length along which there must be ink."""
 
@@ -28,14 +31,15 @@ class Doors:
 
     Parameters
     ----------
-    leaves, openings : ndarray of uint8, shape (h, w)
-        Where leaves stand open, and where they would stand shut.
+    leaves, openings, swings : ndarray of uint8, shape (h, w)
+        Where leaves stand open, where they would stand shut, and the arcs between.
     reach_px : float
         Widest doorway, px.
     """
 
     leaves: ByteArray
     openings: ByteArray
+    swings: ByteArray
     reach_px: float
 
 
@@ -54,10 +58,11 @@ def find_doors(swings: tuple[Swing, ...], ink: ByteArray, m: Measures) -> Doors:
     m : Measures
         Lengths of the drawing.
     """
-    leaves, openings = np.zeros_like(ink), np.zeros_like(ink)
+    leaves, openings, arcs = (np.zeros_like(ink) for _ in range(3))
     for swing in swings:
+        _mark_arc(arcs, swing, 1.5 * m.line)
         ends = [_snapped(b) for b in (swing.start_rad, swing.end_rad)]
-        thick = 0.1 * swing.radius_px + m.line
+        thick = LEAF_SHARE * swing.radius_px + m.line
         slack = max(1.5 * m.line, 0.04 * swing.radius_px)
         # A leaf's thickness lies on the side of the opening that it closes.
         bands = [
@@ -71,11 +76,24 @@ def find_doors(swings: tuple[Swing, ...], ink: ByteArray, m: Measures) -> Doors:
         bands[best].mark(leaves)
         wide = (-2 * thick, 2 * thick)
         _band(ink.shape, swing, ends[1 - best], (0.1, 0.9), wide).mark(openings)
+    if not swings:
+        return Doors(leaves, openings, arcs, DOOR_SHARE * m.extent)
+    usual = float(np.median([swing.radius_px for swing in swings]))
     # A leaf shut against a wall must not take the wall along.
-    leaves &= ~opened(ink, box(1.5 * m.thin))
-    radii = [swing.radius_px for swing in swings]
-    reach = DOOR_REACH * float(np.median(radii)) if radii else DOOR_SHARE * m.extent
-    return Doors(leaves, openings, reach)
+    leaves &= ~opened(ink, box(max(1.5 * m.thin, LEAF_SHARE * usual + m.line)))
+    reach = DOOR_REACH * usual
+    return Doors(leaves, openings, arcs, reach)
+
+
+def _mark_arc(mask: ByteArray, swing: Swing, half_px: float) -> None:
+    """Set the pixels along a swing in a mask that the caller has just made."""
+    step = 0.5 / swing.radius_px
+    slack = 4 * half_px / swing.radius_px  # the ends that were left out of the fit
+    bearing = np.arange(swing.start_rad - slack, swing.end_rad + slack, step)
+    radius = swing.radius_px + np.arange(-half_px, half_px + 0.5, 0.5)[:, None]
+    x = swing.x_px + radius * np.cos(bearing)
+    y = swing.y_px + radius * np.sin(bearing)
+    _on_sheet(mask.shape, x, y).mark(mask)
 
 
 def _snapped(bearing: float) -> float:
@@ -114,6 +132,11 @@ def _band(
     cos, sin = np.cos(bearing), np.sin(bearing)
     x = swing.x_px + along[:, None] * cos - across * sin
     y = swing.y_px + along[:, None] * sin + across * cos
+    return _on_sheet(shape, x, y)
+
+
+def _on_sheet(shape: tuple[int, ...], x: FloatArray, y: FloatArray) -> _Band:
+    """Return the pixels of points, and which of them lie on the sheet."""
     rows, cols = np.rint(y).astype(np.int64), np.rint(x).astype(np.int64)
     inside = (rows >= 0) & (rows < shape[0]) & (cols >= 0) & (cols < shape[1])
     rows, cols = np.clip(rows, 0, shape[0] - 1), np.clip(cols, 0, shape[1] - 1)

@@ -83,7 +83,7 @@ def gap_limits(
     """
     usual = _usual(gap_votes)
     common = _usual(area_votes)
-    low, high = (usual.min() - 1.0, usual.max() + 1.5) if len(usual) else (1.0, 0.0)
+    low, high = (0.6 * usual.min(), usual.max() + 1.5) if len(usual) else (1.0, 0.0)
     if params.max_gap_px:
         low, high = min(low, 1.0 * m.line), m.scale * params.max_gap_px
     return GapLimits(
@@ -135,7 +135,8 @@ def _candidates(
 ) -> tuple[BoolArray, IntArray]:
     """Which gaps are shaped like a wall's, and the number of each gap's stack."""
     shaped = (gaps.steady >= STEADY) & (gaps.slenderness >= TREAD_SLENDERNESS)
-    shaped &= gaps.ajar <= 3 * gaps.width + 2  # open at its ends at most
+    # Open at its ends at most, or at a few of a network's.
+    shaped &= gaps.ajar <= np.maximum(3 * gaps.width + 2, 0.1 * gaps.length)
     shaped[0] = False
     stack = gaps.stacks(shaped)
     treads = shaped & (np.bincount(stack)[stack] >= STACK)

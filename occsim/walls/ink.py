@@ -67,7 +67,8 @@ def darkness(rgb: ByteArray, window_px: float = 0.0) -> ByteArray:
     else:
         full = np.asarray(cv2.resize(paper, (width, height)), dtype=np.uint8)
     share = np.asarray(cv2.divide(rgb, full, scale=255))
-    return np.asarray(255 - share.min(axis=2), dtype=np.uint8)
+    red, green, blue = cv2.split(share)
+    return np.asarray(255 - cv2.min(cv2.min(red, green), blue), dtype=np.uint8)
 
 
 def _paper(small: ByteArray, window: int) -> ByteArray:
@@ -112,7 +113,7 @@ def find_fills(
     """
     calm = np.asarray(cv2.medianBlur(dark, 3), dtype=np.uint8)
     calm *= 1 - dilated(letters, box(5))
-    grain = 2 * float(np.percentile(dark, 60))  # drawings are mostly paper
+    grain = 2 * _percentile(dark, 60)  # drawings are mostly paper
     threshold = 255 * level or max(FAINTEST_FILL, grain)
     blur = max(3.0 * m.scale, BLURRED_LINE_SHARE * m.extent)
     line_px = line_thickness(as_bytes(calm > threshold), blur)
@@ -121,6 +122,12 @@ def find_fills(
     parts = components(areas)
     rooms = parts.chosen(parts.total(fat) > MOSTLY_FAT * parts.area)
     return areas & ~rooms & ~dilated(fat, box(3))
+
+
+def _percentile(levels: ByteArray, percent: float) -> float:
+    """Return the level that so many percent of the pixels do not exceed."""
+    counts = np.cumsum(np.bincount(levels.ravel(), minlength=256))
+    return float(np.searchsorted(counts, percent / 100 * counts[-1]))
 
 
 def _thick_tone(dark: ByteArray, threshold: float, size_px: float) -> ByteArray:
