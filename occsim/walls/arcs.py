@@ -117,7 +117,7 @@ def _strokes(
     parts = components(mask)
     size = parts.longest
     likely = (size >= search.low / 2) & (size <= 1.1 * search.high)
-    likely &= (parts.area >= FEWEST_PX) & (parts.area <= 4 * line_px * size)
+    likely &= (parts.area >= FEWEST_PX) & (parts.area <= 3 * line_px * size)
     # Two quarter circles in a row are twice as long as wide; a line is much longer.
     likely &= np.minimum(parts.width, parts.height) >= FLATTEST * size
     likely[0] = False
@@ -136,7 +136,8 @@ def _swings_of(search: _Search, cols: IntArray, rows: IntArray) -> list[Swing]:
     if whole:
         return [whole]
     along, across = (cols, rows) if np.ptp(cols) > np.ptp(rows) else (rows, cols)
-    if np.ptp(along) < 1.5 * np.ptp(across):
+    long, wide = int(np.ptp(along)), int(np.ptp(across))
+    if not 1.5 * wide <= long <= 3 * wide:
         return []
     first = along < (along.min() + along.max()) / 2
     halves = (_swing(search, cols[half], rows[half]) for half in (first, ~first))

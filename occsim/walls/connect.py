@@ -4,7 +4,15 @@ import numpy as np
 
 from occsim._types import BoolArray, ByteArray, FloatArray
 from occsim.walls.doors import Doors
-from occsim.walls.raster import Components, box, closed, components, depth, opened
+from occsim.walls.raster import (
+    Components,
+    box,
+    closed,
+    components,
+    depth,
+    dilated,
+    opened,
+)
 
 MAIN_SHARE = 0.25
 """Area of a piece, as a share of the largest one's, from which it spans a building."""
@@ -58,10 +66,7 @@ def connected_walls(
     thick_px = 2 * float(np.percentile(deep[walls > 0], 95))
     pieces = components(walls)
     kept, sure = _pieces(pieces, deep, mass, doors)
-    bridges = _bridges(sure, doors.reach_px, thick_px)
-    through = components(_bridges(kept, doors.reach_px, thick_px))
-    bridges |= through.chosen(through.total(doors.openings) > 0)
-    groups = components(kept | bridges)
+    groups = components(kept | _bridges(kept, kept & ~sure, doors, thick_px))
     area = groups.total(kept)
     area[0] = 0.0
     large = area >= STRAY_SHARE * area.max()
@@ -94,18 +99,26 @@ def _in_building(pieces: Components) -> BoolArray:
     return np.asarray(inside & (pieces.top < bottom[main].max()))
 
 
-def _bridges(walls: ByteArray, door_px: float, thick_px: float) -> ByteArray:
-    """Return the doorways between walls that face each other end-on."""
-    along = components(closed(walls, box(door_px, 1)) & ~walls)
-    down = components(closed(walls, box(1, door_px)) & ~walls)
+def _bridges(
+    walls: ByteArray, unsure: ByteArray, doors: Doors, thick_px: float
+) -> ByteArray:
+    """Return the doorways between walls that face each other end-on.
+
+    What is not sure to be a wall needs a door to be joined to one.
+    """
+    along = components(closed(walls, box(doors.reach_px, 1)) & ~walls)
+    down = components(closed(walls, box(1, doors.reach_px)) & ~walls)
+    near_unsure = dilated(unsure, box(3))
     found = np.zeros_like(walls)
     for parts, across, length in (
         (along, along.height, along.width),
         (down, down.width, down.height),
     ):
         like_wall = (across >= BRIDGE[0] * thick_px) & (across <= BRIDGE[1] * thick_px)
-        doorway = (length >= NARROWEST * door_px) | (length <= CRACK * thick_px)
-        found |= parts.chosen(like_wall & doorway)
+        doorway = length >= NARROWEST * doors.reach_px
+        doorway |= length <= CRACK * thick_px
+        safe = (parts.total(near_unsure) == 0) | (parts.total(doors.openings) > 0)
+        found |= parts.chosen(like_wall & doorway & safe)
     return found
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from occsim._types import ByteArray, FloatArray
@@ -17,7 +18,7 @@ from occsim.walls.measures import Measures, measure
 from occsim.walls.params import Stage, WallDetection, WallParams
 from occsim.walls.raster import box, closed, components, dilated, opened
 from occsim.walls.runs import strip_votes
-from occsim.walls.upright import Frame, working_frame
+from occsim.walls.upright import Frame, reduced, working_frame
 
 HOLLOW_SHARE = 0.1
 """Share of all walls that hollow ones must have for a drawing to use them."""
@@ -64,8 +65,9 @@ def detect_walls(
     WallDetection
         The mask, shape (H, W), and a picture for each stage.
     """
-    dark = darkness(drawing.rgb, params.shadow_window_px)
-    frame = working_frame(dark, params.straighten)
+    rgb, reduction = reduced(drawing.rgb)
+    dark = darkness(rgb, params.shadow_window_px * reduction)
+    frame = working_frame(dark, params.straighten, drawing.shape)
     ink = find_ink(frame.dark, params.ink_level)
     m = measure(ink, params, frame.scale)
     letters = _letters(ink, m)
@@ -77,7 +79,7 @@ def detect_walls(
         walls = line_walls(strokes.lines, strokes.doors, m.extent)
         found = connected_walls(walls, walls, strokes.doors, shortest)
     stages = (
-        Stage("Darkness", 255 - dark),
+        Stage("Darkness", _full_size(255 - dark, drawing.shape)),
         _stage(frame, "Ink", ink),
         _stage(frame, "Text and symbols removed", ink & ~letters),
         _stage(frame, "Doors removed", strokes.lines, strokes.doors.openings),
@@ -87,6 +89,13 @@ def detect_walls(
         _stage(frame, "Connected walls", found, walls),
     )
     return WallDetection(mask=frame.back(found), stages=stages)
+
+
+def _full_size(image: ByteArray, shape: tuple[int, int]) -> ByteArray:
+    """Return a picture at the drawing's size."""
+    if image.shape == shape:
+        return image
+    return np.asarray(cv2.resize(image, shape[::-1]), dtype=np.uint8)
 
 
 def _stage(

@@ -34,7 +34,7 @@ class Measures:
 
     Parameters
     ----------
-    scale : int
+    scale : float
         Working pixels along a pixel of the drawing.
     extent : float
         Shorter side of the drawing.
@@ -48,7 +48,7 @@ class Measures:
         Shortest wall that needs no neighbour to be one.
     """
 
-    scale: int
+    scale: float
     extent: float
     line: int
     symbol: float
@@ -62,7 +62,7 @@ class Measures:
         return max(0.04 * self.extent, 8.0 * self.scale), 0.3 * self.extent
 
 
-def measure(ink: ByteArray, params: WallParams, scale: int) -> Measures:
+def measure(ink: ByteArray, params: WallParams, scale: float) -> Measures:
     """Return the lengths for a drawing's ink.
 
     Parameters
@@ -71,12 +71,12 @@ def measure(ink: ByteArray, params: WallParams, scale: int) -> Measures:
         Ink in the working frame.
     params : WallParams
         Lengths given, px of the drawing; zero for estimated.
-    scale : int
+    scale : float
         Working pixels along a pixel of the drawing.
     """
     extent = _extent(ink)
     thickest_line = max(1.5 * scale, LINE_SHARE * extent)
-    line = max(line_thickness(ink, thickest_line), scale)
+    line = max(line_thickness(ink, thickest_line), round(scale))
     symbol = max(SYMBOL_PX * scale, SYMBOL_SHARE * extent)
     # Enlarged lines come out thicker than they were drawn.
     thin = math.floor(MASS_LINES * line) if scale > 1 else math.ceil(MASS_LINES * line)

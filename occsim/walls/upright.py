@@ -11,6 +11,9 @@ from occsim.walls.raster import as_bytes
 SMALL_DRAWING_PX = 400_000
 """Pixels below which a drawing is enlarged: its walls are only a few pixels thick."""
 
+LARGE_DRAWING_PX = 3_000_000
+"""Pixels above which a drawing is reduced; its walls are many pixels thick."""
+
 LEAST_TILT_DEG = 0.5
 """Tilt that is left as it is, degrees: turning blurs more than the tilt costs."""
 
@@ -26,7 +29,7 @@ class Frame:
     ----------
     dark : ndarray of uint8, shape (h, w)
         Darkness in the working frame.
-    scale : int
+    scale : float
         Working pixels along a pixel of the drawing.
     turn : ndarray of float64, shape (2, 3), or None
         Affine from the drawing's pixels to the frame's; None for no turn.
@@ -35,7 +38,7 @@ class Frame:
     """
 
     dark: ByteArray
-    scale: int
+    scale: float
     turn: FloatArray | None
     shape: tuple[int, int]
 
@@ -45,39 +48,63 @@ class Frame:
         levels = as_bytes(mask) * np.uint8(255)
         if self.turn is not None:
             # Blurred as much as a reduction by area would do.
-            smooth = cv2.blur(levels, (self.scale, self.scale), anchor=(0, 0))
+            reach = max(round(self.scale), 1)
+            smooth = cv2.blur(levels, (reach, reach), anchor=(0, 0))
             flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
             levels = np.asarray(
                 cv2.warpAffine(smooth, self.turn, (width, height), flags=flags)
             )
-        elif self.scale > 1:
-            levels = np.asarray(
-                cv2.resize(levels, (width, height), interpolation=cv2.INTER_AREA)
-            )
+        elif self.scale != 1:
+            how = cv2.INTER_AREA if self.scale > 1 else cv2.INTER_LINEAR
+            levels = np.asarray(cv2.resize(levels, (width, height), interpolation=how))
         return levels > 127
 
 
-def working_frame(dark: ByteArray, straighten: bool = True) -> Frame:
+def reduced(rgb: ByteArray) -> tuple[ByteArray, float]:
+    """Return a drawing at a size that is worked on, and the factor; 1 if small."""
+    height, width = rgb.shape[:2]
+    if height * width <= LARGE_DRAWING_PX:
+        return rgb, 1.0
+    scale = float(np.sqrt(LARGE_DRAWING_PX / (height * width)))
+    size = max(round(width * scale), 1), max(round(height * scale), 1)
+    small = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
+    return np.asarray(small, dtype=np.uint8), scale
+
+
+def working_frame(
+    dark: ByteArray,
+    straighten: bool = True,
+    shape: tuple[int, int] | None = None,
+) -> Frame:
     """Return the frame in which most walls run along rows and columns.
 
     Parameters
     ----------
-    dark : ndarray of uint8, shape (H, W)
-        Darkness of the drawing.
+    dark : ndarray of uint8, shape (h, w)
+        Darkness of the drawing, or of a reduced copy.
     straighten : bool, default True
         Whether a tilt is looked for and taken out.
+    shape : tuple of int, optional
+        Height and width of the drawing where `dark` is reduced, px.
     """
     height, width = dark.shape
-    scale = 2 if dark.size < SMALL_DRAWING_PX else 1
+    shape = shape or (height, width)
+    enlarged = 2 if dark.size < SMALL_DRAWING_PX else 1
     large = dark
-    if scale > 1:
-        size = width * scale, height * scale
+    if enlarged > 1:
+        size = width * enlarged, height * enlarged
         large = np.asarray(cv2.resize(dark, size, interpolation=cv2.INTER_CUBIC))
-    tilt_deg = tilt(dark, SMOOTHING_PX / scale) if straighten else 0.0
+    scale = enlarged * width / shape[1]
+    tilt_deg = tilt(dark, SMOOTHING_PX / enlarged) if straighten else 0.0
     if abs(tilt_deg) <= LEAST_TILT_DEG:
-        return Frame(dark=large, scale=scale, turn=None, shape=dark.shape)
-    turned, turn = _turned(dark, tilt_deg, scale)
-    return Frame(dark=turned, scale=scale, turn=turn, shape=dark.shape)
+        return Frame(dark=large, scale=scale, turn=None, shape=shape)
+    turned, turn = _turned(dark, tilt_deg, enlarged)
+    if shape != (height, width):
+        # From the drawing's pixels to those of the reduced copy, then turned.
+        shrink = np.array([width / shape[1], height / shape[0]])
+        turn[:, 2] += turn[:, :2] @ (shrink / 2 - 0.5)
+        turn[:, :2] *= shrink
+    return Frame(dark=turned, scale=scale, turn=turn, shape=shape)
 
 
 def tilt(dark: ByteArray, smoothing_px: float = SMOOTHING_PX) -> float:
