@@ -199,6 +199,18 @@ def test_a_larger_copy_has_the_same_walls(factor):
     assert compare_masks(found_in(large), truth > 0).f1 >= 0.97
 
 
+@pytest.mark.parametrize("degrees", [0.0, 7.0])
+def test_large_drawings_are_worked_on_at_a_smaller_size(degrees):
+    size = WALL.shape[1] * 8, WALL.shape[0] * 8  # 4.5 megapixels
+    large = cv2.resize(STYLES["solid"], size, interpolation=cv2.INTER_CUBIC)
+    truth = cv2.resize(colour(~WALL), size, interpolation=cv2.INTER_NEAREST)
+    if degrees:
+        large, truth = turned(large, degrees, 255), turned(truth, degrees, 0)
+    found = found_in(large)
+    assert found.shape == large.shape[:2]
+    assert compare_masks(found, truth[..., 0] > 127, tolerance_px=4).f1 >= 0.97
+
+
 def test_samples_reach_the_figures_asked_for():
     """F1 with a tolerance of 2 px: at least 0.90 on average and 0.80 on each."""
     f1 = []

@@ -15,7 +15,7 @@ LARGE_PX = 1500, 1000
 def rows() -> Iterator[Row]:
     small = load_sample("b").drawing
     large = Drawing(rgb=cv2.resize(small.rgb, LARGE_PX, interpolation=cv2.INTER_CUBIC))
-    for drawing, aim_ms in ((small, 120.0), (large, 500.0)):
+    for drawing, aim_ms in ((small, 200.0), (large, 500.0)):
         height, width = drawing.shape
         ms = median_ms(lambda drawing=drawing: detect_walls(drawing))
         about = f"detect walls, {width} x {height} px, furnished"
