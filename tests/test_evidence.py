@@ -124,6 +124,29 @@ def test_every_reading_is_that_of_the_naive_loop(
     assert_same_readings(evidence, naive_evidence(world, trajectory, sensor, cell_px))
 
 
+@pytest.mark.parametrize("behind_hit", BehindHit)
+def test_on_a_full_turn_the_heading_does_not_matter(behind_hit):
+    """Diagonal rays from a pixel's centre graze corners, wherever the robot looks."""
+    rng = np.random.default_rng(4)
+    world = World(occupied=rng.random((14, 16)) < 0.15)
+    sensor = Sensor(range_px=12.0, fov_rad=2 * np.pi, behind_hit=behind_hit)
+    grid = world.grid(1)
+    places = rng.integers(0, 14, (40, 2)) + 0.5
+    logs = [
+        collect_evidence(
+            world,
+            Trajectory(poses=np.column_stack([places, np.full(40, heading)])),
+            sensor,
+            grid,
+        )
+        for heading in np.arange(8) * np.pi / 4
+    ]
+    for log in logs[1:]:
+        np.testing.assert_array_equal(log.indptr, logs[0].indptr)
+        np.testing.assert_array_equal(log.cell, logs[0].cell)
+        np.testing.assert_array_equal(log.log_odds, logs[0].log_odds)
+
+
 def test_a_grid_of_another_size_is_refused():
     world = World(occupied=np.zeros((4, 5), dtype=bool))
     trajectory = Trajectory(poses=np.zeros((1, 3)))

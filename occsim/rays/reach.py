@@ -29,7 +29,7 @@ class View:
     x, y : ndarray of float64, shape (N,)
         The robot, px.
     theta : ndarray of float64, shape (N,)
-        Its heading, rad.
+        Its heading, rad; 0 where the field of view is a full turn.
     reach : float
         Range with its tolerance, px.
     half : float
@@ -47,6 +47,11 @@ class View:
         """Return the view of a sensor at poses of shape (N, 3)."""
         x, y, theta = np.ascontiguousarray(poses.T)
         half = min(0.5 * sensor.fov_rad + EDGE_EPS, np.pi)
+        if half == np.pi:
+            # A full turn has no heading, only a seam. Laid along a row of pixels it
+            # meets no pixel centre whose ray grazes a corner, which on the seam would
+            # be stopped on one of its sides alone.
+            theta = np.zeros_like(x)
         reach = min(sensor.range_px, REACH_MAX_PX) + EDGE_EPS
         return cls(x, y, theta, reach, half)
 
