@@ -91,9 +91,11 @@ class EvidenceLog:
         """
         if n_readings is None or n_readings == self.n_readings:
             return self._all_totals
-        if not 0 <= n_readings <= self.n_readings:
+        whole = isinstance(n_readings, (int, np.integer))
+        if not whole or not 0 <= n_readings <= self.n_readings:
             raise ParameterError(
-                f"n_readings must lie in 0 to {self.n_readings}; got {n_readings!r}"
+                f"n_readings must be a whole number, 0 to {self.n_readings}; "
+                f"got {n_readings!r}"
             )
         return self._sum_entries(int(self.indptr[n_readings]))
 

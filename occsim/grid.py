@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import FloatArray, IntArray
+from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.errors import ParameterError
 
 
@@ -124,3 +124,33 @@ class Grid:
         col = np.floor(np.where(inside, x, 0.0) / self.cell_px).astype(np.int64)
         row = np.floor(np.where(inside, y, 0.0) / self.cell_px).astype(np.int64)
         return np.asarray(np.where(inside, row * self.n_cols + col, -1), dtype=np.int64)
+
+
+def cells_of(name: str, flags: npt.ArrayLike, grid: Grid) -> BoolArray:
+    """Return one truth value a cell, once it is known to be that.
+
+    Parameters
+    ----------
+    name : str
+        What to call the values in a message.
+    flags : array_like of bool, shape (R, C)
+        The values.
+    grid : Grid
+        The cells.
+
+    Returns
+    -------
+    ndarray of bool, shape (R, C)
+
+    Raises
+    ------
+    ParameterError
+        Where the shape or type is another.
+    """
+    array = np.asarray(flags)
+    if array.shape != grid.shape or array.dtype != np.bool_:
+        raise ParameterError(
+            f"{name} must be bool of the grid's shape {grid.shape}; "
+            f"got {array.dtype} of shape {array.shape}"
+        )
+    return array

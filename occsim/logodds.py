@@ -20,7 +20,8 @@ def logit(p_free: npt.ArrayLike) -> FloatArray:
     Parameters
     ----------
     p_free : array_like
-        Probability that a cell is free, in (0, 1). The ends give infinities.
+        Probability that a cell is free, in (0, 1). The ends give infinities, what lies
+        beyond them NaN.
 
     Returns
     -------
@@ -28,7 +29,7 @@ def logit(p_free: npt.ArrayLike) -> FloatArray:
         Log-odds of free against occupied, in nats.
     """
     p = np.asarray(p_free, dtype=np.float64)
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.log(p) - np.log1p(-p), dtype=np.float64)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import FloatArray, IntArray
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, require_choice
 from occsim.evidence import EvidenceLog
 from occsim.grid import Grid
 from occsim.logodds import p_free_from_log_odds
@@ -62,7 +62,13 @@ def prior_weight(n_updates: npt.ArrayLike, rule: UpdateRule) -> FloatArray:
     -------
     ndarray of float64
         1 - k, or 1.
+
+    Raises
+    ------
+    ParameterError
+        Where the rule is no `UpdateRule`.
     """
+    require_choice("rule", rule, UpdateRule)
     k = np.asarray(n_updates, dtype=np.float64)
     if rule is UpdateRule.SUBTRACT_PRIOR:
         return np.asarray(1.0 - k, dtype=np.float64)
@@ -99,7 +105,8 @@ def fuse(
     Raises
     ------
     ParameterError
-        Where the grids differ or there are not that many readings.
+        Where the grids differ, there are not that many readings, or the rule is no
+        `UpdateRule`.
 
     References
     ----------

@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, require_choice
 from occsim.evidence import EvidenceLog
+from occsim.grid import cells_of
 from occsim.logodds import is_occupied
 from occsim.mapping import OccupancyMap, UpdateRule, prior_weight
 from occsim.prior import PriorMap
@@ -180,9 +181,10 @@ def score(
     Raises
     ------
     ParameterError
-        Where the shapes differ.
+        Where the shapes differ or the region is no `Region`.
     """
-    _require_shape("truth", truth, occupancy_map.grid.shape)
+    require_choice("region", region, Region)
+    truth = cells_of("truth", truth, occupancy_map.grid)
     outcome = _outcome(is_occupied(occupancy_map.log_odds), truth)
     if region is Region.EXPLORED:
         outcome = outcome[occupancy_map.n_updates > 0]
@@ -249,14 +251,15 @@ def scores_by_reading(
     Raises
     ------
     ParameterError
-        Where grids or shapes differ.
+        Where grids or shapes differ, or the rule or region is no member of its enum.
     """
     if evidence.grid != prior_map.grid:
         raise ParameterError(
             "evidence and prior map must lie on the same grid; got "
             f"{evidence.grid} and {prior_map.grid}"
         )
-    _require_shape("truth", truth, evidence.grid.shape)
+    require_choice("region", region, Region)
+    truth = cells_of("truth", truth, evidence.grid)
     wall = truth.ravel()
     start = _outcome(is_occupied(prior_map.log_odds).ravel(), wall)
     order, first = _by_cell(evidence)
@@ -275,14 +278,6 @@ def scores_by_reading(
     tn, fp, fn, tp = np.cumsum(changes, axis=1)
     explored = np.cumsum(np.bincount(step[first] + 1, minlength=n_readings + 1))
     return ScoreCurves(tp, fp, fn, tn, coverage=explored / evidence.grid.n_cells)
-
-
-def _require_shape(name: str, array: BoolArray, shape: tuple[int, int]) -> None:
-    if array.shape != shape or array.dtype != np.bool_:
-        raise ParameterError(
-            f"{name} must be bool of the grid's shape {shape}; "
-            f"got {array.dtype} of shape {array.shape}"
-        )
 
 
 def _outcome(occupied: BoolArray, wall: BoolArray) -> IntArray:

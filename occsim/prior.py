@@ -6,8 +6,8 @@ from typing import Self
 import numpy as np
 
 from occsim._types import BoolArray, FloatArray
-from occsim.errors import ParameterError
-from occsim.grid import Grid
+from occsim.errors import ParameterError, real_number
+from occsim.grid import Grid, cells_of
 from occsim.logodds import logit
 from occsim.world import wall_cells
 
@@ -39,9 +39,10 @@ class Prior:
 
     def __post_init__(self) -> None:
         for name in ("p_wall", "p_space", "scale"):
-            value = getattr(self, name)
+            value = real_number(name, getattr(self, name))
             if not 0.0 < value <= 1.0:
                 raise ParameterError(f"{name} must lie in (0, 1]; got {value!r}")
+            object.__setattr__(self, name, value)
         if max(self.p_wall, self.p_space) * self.scale >= 1.0:
             raise ParameterError(
                 "scale * p_wall and scale * p_space must lie below 1, where log-odds "
@@ -108,12 +109,9 @@ def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
     Raises
     ------
     ParameterError
-        Where the array does not have the grid's shape.
+        Where the array is not bool of the grid's shape.
     """
-    if is_wall.shape != grid.shape:
-        raise ParameterError(
-            f"is_wall must have the grid's shape {grid.shape}; got {is_wall.shape}"
-        )
+    is_wall = cells_of("is_wall", is_wall, grid)
     p_free = np.where(is_wall, prior.p_free_wall, prior.p_free_space)
     return PriorMap(grid=grid, is_wall=is_wall, p_free=p_free)
 

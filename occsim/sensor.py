@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import FloatArray
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, real_number, require_choice
 from occsim.grid import Grid
 from occsim.logodds import logit
 
@@ -70,6 +70,9 @@ class Sensor:
     clear_no_hit: bool = True
 
     def __post_init__(self) -> None:
+        for name in ("range_px", "fov_rad"):
+            value = real_number(name, getattr(self, name))
+            object.__setattr__(self, name, value)
         if not 0.0 < self.range_px < np.inf:
             raise ParameterError(
                 f"range_px must be above 0 and finite; got {self.range_px!r}"
@@ -77,10 +80,12 @@ class Sensor:
         # A slider in degrees may land a rounding error beyond the full circle.
         if not 0.0 < self.fov_rad <= 2.0 * np.pi + EDGE_EPS:
             raise ParameterError(f"fov_rad must lie in (0, 2 pi]; got {self.fov_rad!r}")
-        if not isinstance(self.behind_hit, BehindHit):
+        require_choice("behind_hit", self.behind_hit, BehindHit)
+        if not isinstance(self.clear_no_hit, (bool, np.bool_)):
             raise ParameterError(
-                f"behind_hit must be a BehindHit; got {self.behind_hit!r}"
+                f"clear_no_hit must be True or False; got {self.clear_no_hit!r}"
             )
+        object.__setattr__(self, "clear_no_hit", bool(self.clear_no_hit))
 
 
 def most_cells_in_view(sensor: Sensor, grid: Grid) -> int:

@@ -29,7 +29,7 @@ class HeadingMode(Enum):
     """All of the four at each position, one reading each."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class Trajectory:
     """Poses in the image frame, one reading each, in order.
 

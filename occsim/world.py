@@ -10,7 +10,7 @@ from occsim.errors import ParameterError
 from occsim.grid import Grid
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class World:
     """Ground truth: which pixels are structure.
 

@@ -123,7 +123,7 @@ def test_a_prior_on_another_grid_is_refused():
         fuse(random_log(0), prior_map)
 
 
-@pytest.mark.parametrize("n_readings", [-1, 8])
+@pytest.mark.parametrize("n_readings", [-1, 8, 1.5, "2"])
 def test_only_readings_that_were_taken_can_be_fused(n_readings):
-    with pytest.raises(ParameterError, match="n_readings must lie in 0 to 7; got"):
+    with pytest.raises(ParameterError, match="n_readings must be a whole number, 0"):
         fuse(random_log(0), random_prior(0), n_readings=n_readings)

@@ -53,7 +53,7 @@ def test_a_full_turn_given_in_degrees_is_accepted():
 
 
 def test_what_lies_behind_a_hit_is_a_choice_not_a_string():
-    with pytest.raises(ParameterError, match="behind_hit must be a BehindHit"):
+    with pytest.raises(ParameterError, match="behind_hit must be one of BehindHit"):
         Sensor(behind_hit="occupied")
 
 

@@ -18,7 +18,7 @@ class Drawing:
     Parameters
     ----------
     rgb : ndarray of uint8, shape (H, W, 3)
-        Colours, red first. Never written to.
+        Colours, red first. A private copy is kept, never written to.
     name : str
         What to call it on screen.
     digest : str
@@ -31,6 +31,10 @@ class Drawing:
 
     def __post_init__(self) -> None:
         rgb = np.ascontiguousarray(self.rgb)
+        if rgb.flags.writeable:
+            # The caller's own array stays writeable; a decoder's, read-only and
+            # perhaps of 120 MB, is kept as it is.
+            rgb = rgb.copy()
         if rgb.dtype != np.uint8 or rgb.ndim != 3 or rgb.shape[2] != 3:
             raise DrawingError(
                 "rgb must be uint8 of shape (H, W, 3); "

@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, require_choice
 from occsim.evidence import EvidenceLog
+from occsim.grid import cells_of
 from occsim.logodds import DECISION_EPS, is_occupied, logit
 from occsim.mapping import UpdateRule, prior_weight
 from occsim.metrics import Region
@@ -177,14 +178,12 @@ def prior_surface(
     Raises
     ------
     ParameterError
-        Where a shape is not the grid's or the scale lies outside its domain.
+        Where a shape is not the grid's, the scale lies outside its domain, or the
+        rule or region is no member of its enum.
     """
-    for name, array in (("is_wall", is_wall), ("truth", truth)):
-        if array.shape != evidence.grid.shape or array.dtype != np.bool_:
-            raise ParameterError(
-                f"{name} must be bool of the grid's shape {evidence.grid.shape}; "
-                f"got {array.dtype} of shape {array.shape}"
-            )
+    is_wall = cells_of("is_wall", is_wall, evidence.grid)
+    truth = cells_of("truth", truth, evidence.grid)
+    require_choice("region", region, Region)
     if not 0.0 < scale <= 1.0:
         raise ParameterError(f"scale must lie in (0, 1]; got {scale!r}")
     sums, counts = evidence.totals()
