@@ -68,12 +68,16 @@ with see:
         "wrong; watch what the readings make of it."
     )
 with tell:
-    st.markdown("**Tell before you play.** Set p_space to 1: will recall rise or fall?")
+    st.markdown(
+        "**Tell before you try.** Set p_wall to 1, as if the drawing's walls were free "
+        "space: will recall rise or fall?"
+    )
     with st.expander("And then?"):
         st.markdown(
-            "It rises, and precision falls. With *subtract prior* each further reading "
-            "pushes a cell away from its prior, so a prior that says *free* very "
-            "firmly makes cells that were seen twice turn *occupied*."
+            "It rises. With *subtract prior* each reading takes the prior off again, "
+            "so from the second on it pushes a cell *away* from its prior: a wall that "
+            "was called free with confidence ends as occupied. Switch to *prior once*, "
+            "and recall falls."
         )
 with why:
     with st.expander("Why: the equations"):

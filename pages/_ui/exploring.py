@@ -177,9 +177,9 @@ def words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "The end of high recall: a p_space near 1 turns cells that are read "
-                "again and again to walls, right ones and wrong ones. At the end of "
-                "high precision only the surest walls are left."
+                "The end of high recall: more cells are called wall there, right ones "
+                "and wrong ones. At the end of high precision only the surest walls "
+                "are left."
             )
     with why:
         st.markdown(
