@@ -1,6 +1,7 @@
 """The command line: ``python -m occsim study [DRAWING ...]``."""
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -43,13 +44,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0, or 2 after a sentence on bad input.
+        Exit status: 0, 2 after a sentence on bad input, or as a shell has it for a
+        command that was stopped or whose reader went away.
     """
     options = _parser().parse_args(arguments)
     try:
         _study(options)
-    except (OccsimError, OSError) as error:
-        print(f"{_parser().prog}: {error}", file=sys.stderr)
+    except BrokenPipeError:
+        # Whoever read the output has had enough (``| head``): no error. What Python
+        # still holds back must go somewhere at exit, or it complains.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + 13  # SIGPIPE, a name that Windows lacks
+    except OccsimError as error:
+        print(f"{_PROG}: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(
+            f"{_PROG}: {error.filename} cannot be used ({error.strerror})",
+            file=sys.stderr,
+        )
         return 2
     except KeyboardInterrupt:
         print("\nStopped; the same command goes on from here.", file=sys.stderr)
@@ -57,8 +70,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+_PROG = "python -m occsim"
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m occsim", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog=_PROG,
+        description="Occupancy grid mapping with informative priors: which prior is "
+        "best, for several drawings and cell sizes.",
+    )
     commands = parser.add_subparsers(dest="command", required=True)
     study = commands.add_parser(
         "study",
@@ -123,7 +143,8 @@ def _study(options: argparse.Namespace) -> None:
         how = "kept" if known else "computed"
         print(f"[{done}/{len(pairs)}] {drawing.name}, {cell_px} px: {how}", flush=True)
     _write(out, cases)
-    print(f"\n{maxima_text(cases)}\n\n{pattern_text(cases)}\n\nWritten to {out}")
+    tables = f"{maxima_text(cases)}\n\n{pattern_text(cases)}"
+    print(f"\n{tables}\n\nWritten to {out}", flush=True)
 
 
 def _drawings(sources: Sequence[str], sensor: Sensor) -> list[StudyDrawing]:

@@ -8,6 +8,9 @@ import numpy.typing as npt
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.errors import ParameterError
 
+MAX_SIZE_PX = 2**31 - 1
+"""Largest side of an image or a cell, px: what the array library counts with."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Grid:
@@ -23,7 +26,7 @@ class Grid:
     Raises
     ------
     ParameterError
-        Where a size is not a whole number of at least 1.
+        Where a size is not a whole number from 1 to `MAX_SIZE_PX`.
     """
 
     height_px: int
@@ -37,6 +40,10 @@ class Grid:
             if not whole or isinstance(value, bool) or value < 1:
                 raise ParameterError(
                     f"{name} must be a whole number of at least 1; got {value!r}"
+                )
+            if value > MAX_SIZE_PX:
+                raise ParameterError(
+                    f"{name} must be at most {MAX_SIZE_PX:,}; got {value!r}"
                 )
             object.__setattr__(self, name, int(value))
 

@@ -1,7 +1,10 @@
 import csv
 import io
 import json
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -279,6 +282,7 @@ def test_the_command_writes_resumes_and_says_so(tmp_path, capsys):
     [
         (["no such drawing"], "a drawing is a sample .* got 'no such drawing'"),
         (["a", "--cells", "0"], "--cells must be 1 px or more; got 0"),
+        (["a", "--cells", "9" * 20], "cell_px must be at most 2,147,483,647; got 9"),
         (["a", "--range-px", "-1"], "range_px must be above 0"),
     ],
 )
@@ -287,6 +291,28 @@ def test_bad_arguments_get_one_sentence(tmp_path, capsys, arguments, message):
     captured = capsys.readouterr()
     assert len(captured.err.splitlines()) == 1
     assert re.search(message, captured.err)
+
+
+def test_a_folder_that_is_a_file_gets_one_sentence(tmp_path, capsys):
+    file = tmp_path / "o"
+    file.touch()
+    assert main(["study", "a", "--cells", "100", "--out", str(file)]) == 2
+    captured = capsys.readouterr()
+    assert re.fullmatch(r"python -m occsim: \S+ cannot be used \(.+\)\n", captured.err)
+
+
+def test_a_reader_that_goes_away_ends_the_command_quietly(tmp_path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = ["study", "a", "--cells", "100", "--out", str(tmp_path)]
+    ended = subprocess.run(
+        [sys.executable, "-m", "occsim", *command],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+    )
+    os.close(writer)
+    assert ended.stderr == b""
+    assert ended.returncode == 128 + 13  # as of a command ended by SIGPIPE
 
 
 def test_an_image_that_is_none_and_two_of_one_name_are_refused(tmp_path, capsys):
