@@ -153,7 +153,9 @@ def test_a_bad_trajectory_is_answered_in_one_sentence_and_loses_nothing(kind):
 def test_poses_in_walls_and_outside_are_counted_and_can_be_dropped():
     # Truth of sample a: (100, 100) is a room, (50, 150) its outer wall, -5 outside.
     rows = b"x,y,theta_deg\n100,100,0\n100,110,90\n50,150,0\n-5,20,0\n"
-    app = upload(launch(BUILD), "Trajectory", "path.csv", rows, "text/csv")
+    app = launch(BUILD)
+    app.selectbox(key="control_choice").select("a").run()
+    app = upload(app, "Trajectory", "path.csv", rows, "text/csv")
     assert "1 of 4 poses lie outside" in app.warning[0].value
     assert "1 stand in walls" in app.warning[0].value
     next(b for b in app.button if b.label == "Drop them").click().run()

@@ -19,6 +19,7 @@ from occsim import (
 )
 from occsim.formats.project import Project, dump_project
 from occsim.strokes import Stroke, StrokeKind, encode_strokes
+from pages._ui.state import OPENING
 from pages._ui.workshop import poses
 from tests.test_pages import launch, png, rooms, upload
 
@@ -119,7 +120,7 @@ def test_turning_and_undoing():
     assert own(app).drawing.shape == (160, 220)
     assert app.session_state["choice"] == "own"
     app = press(app, "Undo")
-    assert app.session_state["choice"] == "a"
+    assert app.session_state["choice"] == OPENING
 
 
 def test_strokes_in_a_row_are_undone_and_done_again_as_one():
@@ -135,7 +136,7 @@ def test_strokes_in_a_row_are_undone_and_done_again_as_one():
     app = press(app, "Redo")
     assert own(app).walls.strokes == tuple(dots)
     app = press(press(app, "Undo"), "Undo")
-    assert app.session_state["choice"] == "a"
+    assert app.session_state["choice"] == OPENING
 
 
 def test_a_rectangle_on_the_board_crops():
@@ -300,7 +301,7 @@ def test_a_world_without_free_space_is_answered_in_one_sentence():
 
 @pytest.mark.parametrize("kind", TrajectoryFormat)
 def test_every_trajectory_file_is_taken(kind):
-    trajectory = load_sample("a").trajectory
+    trajectory = load_sample(OPENING).trajectory
     app = at("6 Trajectory", way="Files")
     content = dump_trajectory(trajectory, kind)
     app = upload(app, "Trajectory", f"path.{kind.value}", content, "any/any")
@@ -348,7 +349,7 @@ def test_a_project_brings_everything_back():
     assert own(app).door_px == 30.0
     assert app.session_state["settings"].cell_px == 7
     app = press(app, "Undo")
-    assert app.session_state["choice"] == "a"
+    assert app.session_state["choice"] == OPENING
 
 
 def zip_with(name, content):

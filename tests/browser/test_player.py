@@ -40,7 +40,7 @@ def run():
 
 
 def open_player(page, app_url):
-    page.goto(f"{app_url}/Build_a_map")
+    page.goto(f"{app_url}/Build_a_map?drawing=a")
     page.wait_for_selector(f"{ROOT}[data-ready='1']")
     return page.locator(ROOT)
 
