@@ -64,8 +64,8 @@ see, tell, why = st.columns(3, gap="large")
 with see:
     st.markdown(
         "**See.** The map starts as the drawing says and each reading overwrites a "
-        "cone of it. Where a shelf, a step or a railing was taken for a wall, the prior "
-        "is wrong; show the *Errors* and watch what the readings make of it."
+        "cone of it. Where a shelf, a step or a railing was taken for a wall, the "
+        "prior is wrong; show the *Errors* and watch what the readings make of it."
     )
 with tell:
     st.markdown(

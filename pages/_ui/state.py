@@ -20,8 +20,8 @@ from pages._ui.settings import Settings, decode, encode, with_changes
 
 OWN = "own"
 OPENING = "b"
-"""The drawing that the app opens with: a shelf and a balcony mislead the wall detection,
-so that the prior errs visibly and the Pareto front has several points."""
+"""The drawing that the app opens with: a shelf and a balcony are taken for walls, so
+that the prior errs visibly and the Pareto front has several points."""
 PLAYER_KEY = "map_player"
 # The settings that are changed inside the player, not by a Streamlit control.
 PLAYED = ("p_wall", "p_space", "uninformative", "rule", "region", "overlay")
