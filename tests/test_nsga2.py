@@ -16,7 +16,7 @@ from occsim.nsga2 import (
     nsga2_generations,
 )
 from occsim.pareto import exact_front, non_dominated, reference_point
-from occsim.sweep import Objective, interpolate, sweep_priors
+from occsim.sweep import Objective, interpolate, prior_surface, sweep_priors
 from occsim.world import truth_cells
 from tests.test_metrics import log_of
 
@@ -141,15 +141,53 @@ def test_the_best_front_is_held_to_its_share():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"pop_size": 3}, "pop_size must lie in 4 to 10,000; got 3"),
-        ({"n_gen": 0}, "n_gen must lie in 1 to 10,000; got 0"),
+        ({"pop_size": 3}, "pop_size must be a whole number, 4 to 10,000; got 3"),
+        ({"n_gen": 0}, "n_gen must be a whole number, 1 to 10,000; got 0"),
+        ({"pop_size": 10.5}, "pop_size must be a whole number"),
+        ({"seed": None}, "seed must be a whole number, 0 to 4,294,967,295; got None"),
+        ({"elitism": "full"}, "elitism must be one of Elitism.FULL"),
         ({"low": 0.5, "high": 0.5}, "low and high must satisfy"),
         ({"pareto_fraction": 1.0}, "pareto_fraction must lie in"),
     ],
 )
 def test_bad_settings_are_refused_at_once(change, message):
     with pytest.raises(ParameterError, match=message):
-        nsga2_generations(lambda pairs: pairs, seed=1, **change)
+        nsga2_generations(lambda pairs: pairs, **{"seed": 1, **change})
+
+
+def test_objectives_of_other_forms_are_the_same_objective(case):
+    """Columns, pair by pair, the sweep or surface itself: one and the same front."""
+    sweep, surface = sweep_priors(*case, TENTHS, TENTHS), prior_surface(*case)
+    exact, table = exact_objective(*case), interpolated_objective(sweep)
+    forms = [
+        (exact, surface),
+        (exact, lambda pairs: tuple(exact(pairs).T)),
+        (exact, lambda p_wall, p_space: exact(np.array([[p_wall, p_space]]))[0]),
+        (table, sweep),
+        (table, lambda pairs, reverse=False: table(pairs).tolist()),
+    ]
+    for usual, other in forms:
+        one, two = (
+            nsga2_front(form, pop_size=8, n_gen=3, seed=2) for form in (usual, other)
+        )
+        np.testing.assert_array_equal(one.p_wall, two.p_wall)
+        np.testing.assert_array_equal(one.precision, two.precision)
+        np.testing.assert_array_equal(one.recall, two.recall)
+
+
+@pytest.mark.parametrize(
+    ("objective", "message"),
+    [
+        (0.5, "objective must be a function of prior pairs, a PriorSweep or"),
+        (lambda pairs: pairs[:, :1], r"shape \(8, 2\); got shape \(8, 1\)"),
+        (lambda pairs: (pairs[:, 0], 0.5 * pairs), "could not be read as numbers"),
+        (lambda pairs: 1.0 / pairs, r"\[0, 1\] or NaN .* 1/precision .* got \d"),
+        (lambda p_wall, p_space: p_wall, r"\(8, 2\); got shape \(8,\)"),
+    ],
+)
+def test_an_objective_that_returns_something_else_is_refused(objective, message):
+    with pytest.raises(ParameterError, match=message):
+        nsga2_front(objective, pop_size=8, n_gen=2, seed=1)
 
 
 def test_importing_the_library_does_not_import_pymoo():

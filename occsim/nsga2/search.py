@@ -11,30 +11,17 @@ References
    source's reference [44], MATLAB's gamultiobj.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
 import numpy as np
 
-from occsim._types import BoolArray, FloatArray, Progress
-from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
-from occsim.mapping import UpdateRule
-from occsim.metrics import Region, precision_of, recall_of
+from occsim._types import FloatArray, Progress
+from occsim.errors import ParameterError, require_choice
+from occsim.nsga2.objectives import AnyObjective, ObjectiveFunction, as_objective
 from occsim.pareto import ParetoFront, front_of, hypervolume
-from occsim.prior import PRIOR_SCALE
-from occsim.sweep import (
-    Objective,
-    PriorSurface,
-    PriorSweep,
-    interpolate,
-    prior_surface,
-)
-
-ObjectiveFunction = Callable[[FloatArray], FloatArray]
-"""From pairs (N, 2) of p_wall and p_space to precision and recall (N, 2)."""
 
 PARETO_FRACTION = 0.35
 """Default of the source's tool: share of the population on the best front."""
@@ -80,70 +67,8 @@ class Generation:
         return front_of(pairs[:, 0], pairs[:, 1], scores[:, 0], scores[:, 1])
 
 
-def interpolated_objective(sweep: PriorSweep) -> ObjectiveFunction:
-    """Return the source's objective: a sweep, bilinearly interpolated.
-
-    Parameters
-    ----------
-    sweep : PriorSweep
-        Usually 0.1, 0.2, ..., 1 on both axes.
-
-    Returns
-    -------
-    callable
-        Precision and recall of pairs within the sweep's axes.
-    """
-
-    def evaluate(pairs: FloatArray) -> FloatArray:
-        p_wall, p_space = pairs.T
-        scores = [interpolate(sweep, p_wall, p_space, which) for which in Objective]
-        return np.stack(scores, axis=1)
-
-    return evaluate
-
-
-def exact_objective(
-    evidence: EvidenceLog,
-    is_wall: BoolArray,
-    truth: BoolArray,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
-    region: Region = Region.EXPLORED,
-    scale: float = PRIOR_SCALE,
-) -> ObjectiveFunction:
-    """Return the objective that each pair's own map gives.
-
-    Parameters
-    ----------
-    evidence, is_wall, truth, rule, region, scale
-        As in `prior_surface`.
-
-    Returns
-    -------
-    callable
-        Precision and recall of pairs in (0, 1].
-
-    Raises
-    ------
-    ParameterError
-        Where a shape is not the grid's or the scale lies outside its domain.
-    """
-    surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
-    return surface_objective(surface)
-
-
-def surface_objective(surface: PriorSurface) -> ObjectiveFunction:
-    """Return the exact objective of a known surface; see `exact_objective`."""
-
-    def evaluate(pairs: FloatArray) -> FloatArray:
-        tp, fp = surface.counts(*pairs.T)
-        scores = (precision_of(tp, fp), recall_of(tp, surface.n_wall - tp))
-        return np.stack(scores, axis=1)
-
-    return evaluate
-
-
 def nsga2_generations(
-    objective: ObjectiveFunction,
+    objective: AnyObjective,
     *,
     pop_size: int = 100,
     n_gen: int = 100,
@@ -158,16 +83,19 @@ def nsga2_generations(
 
     Parameters
     ----------
-    objective : callable
-        From pairs (N, 2) to precision and recall (N, 2), NaN allowed; see
-        `interpolated_objective` and `exact_objective`.
+    objective : callable, PriorSweep or PriorSurface
+        A function of pairs (N, 2), columns p_wall and p_space, that returns precision
+        and recall, NaN allowed, as (N, 2) or as a tuple of two arrays (N,); see
+        `interpolated_objective` and `exact_objective`. Or a function of two numbers,
+        p_wall and p_space, called pair by pair. A sweep is interpolated, a surface
+        evaluated exactly.
     pop_size : int, default 100
         Individuals in a population, 4 to 10,000.
     n_gen : int, default 100
         Generations, 1 to 10,000, the first one among them: random pairs and the four
         corners of the box.
     seed : int
-        Equal seeds give equal runs.
+        0 to 2^32 - 1. Equal seeds give equal runs.
     elitism : Elitism, default Elitism.FULL
         Who survives.
     pareto_fraction : float, default 0.35
@@ -186,11 +114,13 @@ def nsga2_generations(
     Raises
     ------
     ParameterError
-        At once where a value lies outside its domain.
+        At once where a value lies outside its domain; on the way where the objective
+        returns something else than precision and recall.
     """
-    for name, count, least in (("pop_size", pop_size, 4), ("n_gen", n_gen, 1)):
-        if not least <= count <= 10_000:
-            raise ParameterError(f"{name} must lie in {least} to 10,000; got {count!r}")
+    _require_whole("pop_size", pop_size, 4, 10_000)
+    _require_whole("n_gen", n_gen, 1, 10_000)
+    _require_whole("seed", seed, 0, 2**32 - 1)
+    require_choice("elitism", elitism, Elitism)
     if not 0.0 < low < high <= 1.0:
         raise ParameterError(
             f"low and high must satisfy 0 < low < high <= 1; got {low!r} and {high!r}"
@@ -201,11 +131,11 @@ def nsga2_generations(
         )
     ratio = None if elitism is Elitism.FULL else 1.0 - pareto_fraction
     algorithm = _algorithm(pop_size, n_gen, seed, ratio, (low, high))
-    return _run(algorithm, objective, ref)
+    return _run(algorithm, as_objective(objective), ref)
 
 
 def nsga2_front(
-    objective: ObjectiveFunction,
+    objective: AnyObjective,
     *,
     pop_size: int = 100,
     n_gen: int = 100,
@@ -233,7 +163,8 @@ def nsga2_front(
     Raises
     ------
     ParameterError
-        Where a value lies outside its domain.
+        Where a value lies outside its domain, or the objective returns something else
+        than precision and recall.
     """
     generations = nsga2_generations(
         objective,
@@ -249,6 +180,13 @@ def nsga2_front(
         if on_progress is not None:
             on_progress(generation.number, n_gen)
     return generation.front()
+
+
+def _require_whole(name: str, value: object, least: int, most: int) -> None:
+    if not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        raise ParameterError(
+            f"{name} must be a whole number, {least} to {most:,}; got {value!r}"
+        )
 
 
 def _algorithm(
