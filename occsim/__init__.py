@@ -58,6 +58,7 @@ from occsim.sweep import (
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
 from occsim.trajectory_files import TrajectoryFormat, dump_trajectory, load_trajectory
+from occsim.walls import WallDetection, WallParams, detect_walls
 from occsim.world import World, truth_cells
 
 __version__ = "0.1.0"
@@ -89,11 +90,14 @@ __all__ = [
     "TrajectoryError",
     "TrajectoryFormat",
     "UpdateRule",
+    "WallDetection",
+    "WallParams",
     "World",
     "build_prior",
     "collect_evidence",
     "coverage",
     "default_tour",
+    "detect_walls",
     "dominates",
     "dump_trajectory",
     "exact_front",

@@ -1,0 +1,68 @@
+"""What the library promises to those who import from `occsim` itself."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import occsim
+
+README = Path(__file__).resolve().parents[1] / "README.md"
+
+# The names that outside code builds on: none of them may go missing.
+PROMISED = {
+    "BehindHit",
+    "Drawing",
+    "DrawingError",
+    "EvidenceLog",
+    "Grid",
+    "OccsimError",
+    "OccupancyMap",
+    "ParameterError",
+    "ParetoFront",
+    "Prior",
+    "PriorMap",
+    "PriorSweep",
+    "Region",
+    "Sample",
+    "Scores",
+    "Sensor",
+    "Trajectory",
+    "TrajectoryError",
+    "UpdateRule",
+    "WallDetection",
+    "WallParams",
+    "World",
+    "build_prior",
+    "collect_evidence",
+    "detect_walls",
+    "exact_front",
+    "fuse",
+    "load_drawing",
+    "load_sample",
+    "load_trajectory",
+    "nsga2_front",
+    "sample_names",
+    "score",
+    "sweep_priors",
+    "truth_cells",
+}
+
+
+def test_every_promised_name_is_exported():
+    assert set(occsim.__all__) >= PROMISED
+
+
+def test_every_exported_name_is_there():
+    missing = [name for name in occsim.__all__ if not hasattr(occsim, name)]
+    assert not missing
+
+
+def test_the_example_of_the_readme_runs_as_it_stands():
+    text = README.read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        exec(compile(example, str(README), "exec"), {})
+    precision, recall = map(float, printed.getvalue().split())
+    assert 0.0 < precision <= 1.0
+    assert 0.0 < recall <= 1.0
