@@ -180,12 +180,11 @@ def collect_evidence(
         if on_progress is not None:
             on_progress(batch.stop, len(trajectory))
     sizes, cells, log_odds = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return EvidenceLog(
-        grid=grid,
-        indptr=np.concatenate([[0], np.cumsum(sizes)]),
-        cell=cells,
-        log_odds=log_odds,
-    )
+    indptr = np.concatenate([[0], np.cumsum(sizes)])
+    for array in (indptr, cells, log_odds):
+        # The log remembers its totals: entries must not change under them.
+        array.setflags(write=False)
+    return EvidenceLog(grid=grid, indptr=indptr, cell=cells, log_odds=log_odds)
 
 
 def _batches(

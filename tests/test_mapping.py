@@ -8,8 +8,12 @@ from occsim import (
     Grid,
     ParameterError,
     Prior,
+    Sensor,
+    Trajectory,
     UpdateRule,
+    World,
     build_prior,
+    collect_evidence,
     fuse,
     logit,
 )
@@ -107,6 +111,15 @@ def test_fusing_changes_neither_log_nor_prior():
     for old, new in zip(before, after, strict=True):
         np.testing.assert_array_equal(old, new)
     np.testing.assert_array_equal(first.log_odds, second.log_odds)
+
+
+def test_a_collected_log_cannot_be_written_to():
+    world = World(occupied=np.zeros((3, 3), dtype=bool))
+    trajectory = Trajectory(poses=[[1.5, 1.5, 0.0]])
+    log = collect_evidence(world, trajectory, Sensor(), world.grid(1))
+    for array in (log.indptr, log.cell, log.log_odds):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
 
 
 def test_totals_cannot_be_written_to():
