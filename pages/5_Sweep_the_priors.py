@@ -2,8 +2,9 @@
 
 import streamlit as st
 
-from pages._ui import compute, controls, shell, state, sweeping
+from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Drawings, Surface
+from pages._ui.priors import sweeping
 
 lesson = shell.begin("pages/5_Sweep_the_priors.py")
 shell.heading(lesson)

@@ -2,8 +2,9 @@
 
 import streamlit as st
 
-from pages._ui import comparing, compute, controls, exploring, searching, shell, state
+from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Exploring
+from pages._ui.priors import comparing, exploring, searching
 
 lesson = shell.begin("pages/6_Pareto_explorer.py")
 shell.heading(lesson)

@@ -2,7 +2,8 @@
 
 import streamlit as st
 
-from pages._ui import compute, controls, guiding, shell, state
+from pages._ui import compute, controls, shell, state
+from pages._ui.priors import guiding
 
 lesson = shell.begin("pages/7_Best_prior.py")
 shell.heading(lesson)

@@ -2,7 +2,8 @@
 
 import streamlit as st
 
-from pages._ui import controls, shell, studying
+from pages._ui import controls, shell
+from pages._ui.priors import studying
 
 lesson = shell.begin("pages/8_Study.py")
 shell.heading(lesson)

@@ -20,7 +20,7 @@ from occsim.building import Building, CorrectedMask, empty_mask
 from occsim.drawing import load_drawing
 from occsim.nsga2 import Elitism
 from occsim.pareto import near_front
-from pages._ui import compute, figures, fronts, guiding, maps, surfaces
+from pages._ui import compute
 from pages._ui.choices import (
     Drawings,
     Exploring,
@@ -31,6 +31,7 @@ from pages._ui.choices import (
     Picture,
     Surface,
 )
+from pages._ui.priors import fronts, guiding, maps, surface_figures, surfaces
 from pages._ui.settings import Settings, encode, with_changes
 from tests.test_pages import ROOT, png
 
@@ -334,7 +335,7 @@ def test_a_hole_in_a_surface_has_words():
     assert view.has_gaps
     assert view.range == (50.0, 60.0)
     assert view.targets()[1][:2] == [surfaces.UNDEFINED, "50.0 %"]
-    assert figures.colour_range([view]) == (50.0, 100.0)
+    assert surface_figures.colour_range([view]) == (50.0, 100.0)
 
 
 def test_distance_is_the_tolerance_at_which_a_pair_is_near(run_b):

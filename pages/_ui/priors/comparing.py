@@ -5,10 +5,11 @@ import streamlit as st
 from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
 from occsim.pareto import ParetoFront, near_front
-from pages._ui import compute, controls, front_figures, fronts, maps, state, surfaces
-from pages._ui.front_figures import DrawingFront
+from pages._ui import compute, controls, state
+from pages._ui.priors import front_figures, fronts, maps, surfaces
+from pages._ui.priors.front_figures import DrawingFront
+from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import SOURCE_PAIR, Run
-from pages._ui.sweeping import CONFIG
 
 STEP = 0.02
 TOLERANCE_STEP, MAX_TOLERANCE = 0.005, 0.5

@@ -12,11 +12,12 @@ from occsim.formats.prior_map import (
     prior_png,
 )
 from occsim.pareto import recommend, set_c
-from pages._ui import compute, front_figures, maps, palette, state
+from pages._ui import compute, palette, state
 from pages._ui.choices import FrontAxes, Handover, Picture
-from pages._ui.front_figures import Mark
+from pages._ui.priors import front_figures, maps
+from pages._ui.priors.front_figures import Mark
+from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import Run
-from pages._ui.sweeping import CONFIG
 
 
 def recommended(run: Run) -> Prior | None:

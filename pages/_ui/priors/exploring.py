@@ -4,10 +4,11 @@ import streamlit as st
 
 from occsim import Prior
 from occsim.pareto import recommend, rectangles_at, set_c
-from pages._ui import controls, front_figures, fronts, maps, palette, state
-from pages._ui.front_figures import Mark
+from pages._ui import controls, palette, state
+from pages._ui.priors import front_figures, fronts, maps
+from pages._ui.priors.front_figures import Mark
+from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import SOURCE_PAIR, Run
-from pages._ui.sweeping import CONFIG
 
 
 @st.fragment

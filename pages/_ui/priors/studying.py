@@ -18,8 +18,9 @@ from occsim.study import (
     pattern_text,
     sweeps_csv,
 )
-from pages._ui import compute, front_figures, state
-from pages._ui.sweeping import CONFIG
+from pages._ui import compute, state
+from pages._ui.priors import front_figures
+from pages._ui.priors.sweeping import CONFIG
 
 TITLES = {
     Objective.PRECISION: "Table 4.1: highest precision",

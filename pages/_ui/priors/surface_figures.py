@@ -7,8 +7,8 @@ from plotly.subplots import make_subplots
 
 from pages._ui import palette
 from pages._ui.choices import Surface
+from pages._ui.priors.surfaces import HIGH, LOW, SurfaceView
 from pages._ui.runs import SOURCE_PAIR
-from pages._ui.surfaces import HIGH, LOW, SurfaceView
 
 Pair = tuple[float, float]
 SURFACE_PX = 400

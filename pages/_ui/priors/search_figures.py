@@ -9,9 +9,9 @@ from occsim.pareto import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
 from pages._ui.compute import SearchStep
-from pages._ui.figures import Pair
-from pages._ui.front_figures import WORDS, front_points, front_steps, place
-from pages._ui.fronts import scores_at
+from pages._ui.priors.front_figures import WORDS, front_points, front_steps, place
+from pages._ui.priors.fronts import scores_at
+from pages._ui.priors.surface_figures import Pair
 
 SEARCH_PX = 540
 BELOW = -0.17

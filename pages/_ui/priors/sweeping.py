@@ -5,8 +5,9 @@ import streamlit as st
 from occsim import Objective, maxima, sample_names
 from occsim.pareto import ParetoFront
 from occsim.sweep import Maxima
-from pages._ui import compute, controls, figures, maps, state, surfaces
+from pages._ui import compute, controls, state
 from pages._ui.choices import Surface
+from pages._ui.priors import maps, surface_figures, surfaces
 from pages._ui.runs import Run
 from pages._ui.settings import with_changes
 
@@ -38,9 +39,9 @@ def surface_chart(run: Run, objective: Objective) -> None:
     """One surface; a click on it chooses a pair."""
     settings = state.settings()
     view = surfaces.surface_view(run, settings, objective)
-    figure = figures.surface_figure(
+    figure = surface_figures.surface_figure(
         view,
-        ends=figures.colour_range([view]),
+        ends=surface_figures.colour_range([view]),
         chosen=state.pair(),
         best=pairs(maxima(surfaces.source_sweep(run), objective)),
         front=pairs(run.front) if settings.surface is Surface.EXACT else None,
@@ -59,10 +60,12 @@ def all_drawings() -> None:
         [surfaces.surface_view(run, settings, objective) for objective in Objective]
         for run in runs.values()
     ]
-    ends = [figures.colour_range(list(column)) for column in zip(*rows, strict=True)]
+    ends = [
+        surface_figures.colour_range(list(column)) for column in zip(*rows, strict=True)
+    ]
     picture, text = st.columns([3, 2], gap="large")
     with picture:
-        figure = figures.rows_figure(rows, list(runs), ends, state.pair())
+        figure = surface_figures.rows_figure(rows, list(runs), ends, state.pair())
         st.plotly_chart(figure, config=CONFIG, key="surface_rows")
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:

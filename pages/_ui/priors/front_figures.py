@@ -9,10 +9,15 @@ from plotly.colors import sample_colorscale
 from occsim.pareto import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
-from pages._ui.figures import Pair, pair_marks, pair_targets, square_axes_of
-from pages._ui.fronts import scores_at
+from pages._ui.priors.fronts import scores_at
+from pages._ui.priors.surface_figures import (
+    Pair,
+    pair_marks,
+    pair_targets,
+    square_axes_of,
+)
+from pages._ui.priors.surfaces import HIGH, LOW
 from pages._ui.runs import SOURCE_PAIR
-from pages._ui.surfaces import HIGH, LOW
 
 FRONT_PX = 380
 WORDS = {

@@ -5,12 +5,13 @@ import contextlib
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages._ui import compute, controls, maps, search_figures, state
+from pages._ui import compute, controls, state
 from pages._ui.choices import Objectives
 from pages._ui.compute import SearchStep
+from pages._ui.priors import maps, search_figures
+from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
-from pages._ui.sweeping import CONFIG
 
 LIVE_FRAMES = 20
 """Charts drawn while a search runs: each takes longer than a generation."""

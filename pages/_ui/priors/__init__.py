@@ -1,0 +1,1 @@
+"""The pages on priors: sweeps, fronts, the best pair, the study."""
