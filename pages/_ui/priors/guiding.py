@@ -89,9 +89,9 @@ def front(run: Run) -> None:
         run.front, FrontAxes.SCORES, _marks(run), settings.min_recall
     )
     st.plotly_chart(figure, config=CONFIG, key="path_front")
-    n_inside = len(set_c(run.front, settings.min_recall))
+    n, n_inside = len(run.front), len(set_c(run.front, settings.min_recall))
     st.caption(
-        f"{len(run.front)} points, exact; {n_inside} of them with a recall above "
+        f"{n} point{'' if n == 1 else 's'}, exact; {n_inside} with a recall above "
         f"{settings.min_recall:.2f} (set C)."
     )
 
