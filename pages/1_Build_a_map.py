@@ -43,7 +43,12 @@ if state.message():
 uploads.pose_notice()
 
 building, settings = state.building(), state.settings()
-if building.truth is None:
+if not building.world.occupied.any():
+    st.info(
+        "There is no wall to map: the ground truth has none, or none was given and "
+        "none was found in the drawing. Precision and recall are undefined."
+    )
+elif building.truth is None:
     st.info(
         "No ground truth was given: the walls detected in the drawing serve as the "
         "world, so the prior is right everywhere."

@@ -161,3 +161,24 @@ def test_poses_in_walls_and_outside_are_counted_and_can_be_dropped():
     next(b for b in app.button if b.label == "Drop them").click().run()
     assert not app.warning
     assert len(own(app).trajectory) == 2
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_damaged_link_is_answered_with_one_sentence(page):
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    if page != "app.py":
+        app.switch_page(page)
+    for name, value in {"cell_px": "abc", "drawing": "zz", "p_wall": "9"}.items():
+        app.query_params[name] = value
+    app.run()
+    assert not app.exception
+    (said,) = (item.value for item in app.warning if "link" in item.value)
+    assert "drawing, cell_px, p_wall" in said
+
+
+def test_a_drawing_without_walls_says_that_there_is_nothing_to_score():
+    app = launch(BUILD)
+    upload(app, "Drawing", "white.png", png(np.full((160, 220), 255, np.uint8)))
+    assert "no wall to map" in app.info[0].value
+    app.switch_page("pages/5_Sweep_the_priors.py").run()
+    assert "No wall was found in the drawing and no" in app.warning[0].value

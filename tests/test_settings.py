@@ -25,6 +25,7 @@ from pages._ui.settings import (
     Settings,
     decode,
     encode,
+    unread,
     with_changes,
 )
 
@@ -92,3 +93,9 @@ def test_every_setting_is_declared_and_every_choice_has_words():
     defaults = [getattr(Settings(), field.name) for field in fields(Settings)]
     for kind in {type(value) for value in defaults if isinstance(value, Enum)}:
         assert set(kind) <= set(CHOICES)
+
+
+def test_the_wrong_values_of_a_link_are_named():
+    query = {"cell_px": "abc", "p_wall": "9", "p_space": "0.5", "utm": "x"}
+    assert unread(query) == ["cell_px", "p_wall"]
+    assert decode(query) == Settings(p_space=0.5)

@@ -88,6 +88,11 @@ class Run:
                 "No reading saw any cell, so the map is the prior and nothing else: "
                 "check the trajectory and the range of the sensor."
             )
+        if self.building.truth is None and not self.is_wall.any():
+            return (
+                "No wall was found in the drawing and no ground truth was given: there "
+                "is no wall to map, and precision and recall are undefined."
+            )
         if not self.surface.n_wall:
             return (
                 "The ground truth has no wall among the scored cells: recall is "

@@ -316,15 +316,25 @@ def encode(settings: Settings) -> dict[str, str]:
 
 def decode(query: Mapping[str, str]) -> Settings:
     """Return the settings of a link; what is unknown or wrong keeps its default."""
+    return replace(Settings(), **_read(query)[0])
+
+
+def unread(query: Mapping[str, str]) -> list[str]:
+    """Return the names of the settings that a link gives wrong values."""
+    return _read(query)[1]
+
+
+def _read(query: Mapping[str, str]) -> tuple[dict[str, Any], list[str]]:
     good: dict[str, Any] = {}
+    wrong: list[str] = []
     for field in fields(Settings):
         if field.name not in query:
             continue
         try:
             good[field.name] = _checked(field.name, query[field.name])
         except ValueError:
-            continue
-    return replace(Settings(), **good)
+            wrong.append(field.name)
+    return good, wrong
 
 
 def _text(value: Any) -> str:

@@ -88,6 +88,8 @@ def begin(path: str) -> Lesson:
     st.html(CSS)
     state.prepare(path)
     _navigation(path)
+    if state.link_notice(path):
+        st.warning(state.link_notice(path))
     return lesson
 
 

@@ -16,7 +16,7 @@ from occsim import OccsimError, Prior, load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
 from pages._ui.player import PlayerDocument
-from pages._ui.settings import Settings, decode, encode, with_changes
+from pages._ui.settings import Settings, decode, encode, unread, with_changes
 
 OWN = "own"
 OPENING = "b"
@@ -38,11 +38,31 @@ def prepare(path: str) -> None:
         state.message = ""
         state.played = PlayerDocument()
         state.settings = _for_sample(decode(st.query_params.to_dict()), first)
+        state.link_notice = path, _damage(asked)
         _half_built()
     # A component that leaves the screen forgets what it knew.
     if state.get("path") != path:
         state.path = path
         forget_player()
+
+
+def _damage(asked: str) -> str:
+    """What of the link could not be followed, in a sentence; empty if all was."""
+    wrong = unread(st.query_params.to_dict())
+    if asked and asked not in sample_names():
+        wrong.insert(0, "drawing")
+    if not wrong:
+        return ""
+    return (
+        f"The link gives no usable value for {', '.join(wrong)}; there the defaults "
+        "are used."
+    )
+
+
+def link_notice(path: str) -> str:
+    """What was wrong with the link that opened this page; empty on other pages."""
+    opened, words = st.session_state.link_notice
+    return words if path == opened else ""
 
 
 def settings() -> Settings:
