@@ -8,9 +8,7 @@ tritan vision. What has a meaning here has it on every page and in every compone
 
 # Belief: p_free from 0 (occupied) over one half (unknown) to 1 (free).
 BELIEF_OCCUPIED = "#000000"
-BELIEF_UNKNOWN = "#808080"
 BELIEF_FREE = "#ffffff"
-BELIEF_SCALE = [[0.0, BELIEF_OCCUPIED], [1.0, BELIEF_FREE]]
 
 # Evidence and differences: symmetric about zero.
 EVIDENCE_WALL = "#e8871e"

@@ -15,7 +15,7 @@ import streamlit as st
 from occsim import OccsimError, Prior, load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
-from pages._ui.player import PlayerDocument
+from pages._ui.player import SHARED, PlayerDocument
 from pages._ui.settings import Settings, decode, encode, unread, with_changes
 
 OWN = "own"
@@ -23,8 +23,6 @@ OPENING = "b"
 """The drawing that the app opens with: a shelf and a balcony are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
 PLAYER_KEY = "map_player"
-# The settings that are changed inside the player, not by a Streamlit control.
-PLAYED = ("p_wall", "p_space", "uninformative", "rule", "region", "overlay")
 
 
 def prepare(path: str) -> None:
@@ -73,7 +71,7 @@ def settings() -> Settings:
 def change(**changes: Any) -> None:
     """Replace some settings; what the player shows follows if it is concerned."""
     st.session_state.settings = with_changes(settings(), changes)
-    if any(name in PLAYED for name in changes):
+    if any(name in SHARED for name in changes):
         forget_player()
 
 
@@ -264,7 +262,7 @@ def player_document() -> PlayerDocument:
     """
     state = st.session_state
     if state.imposed is None:
-        shared = {name: getattr(settings(), name) for name in PLAYED}
+        shared = {name: getattr(settings(), name) for name in SHARED}
         state.imposed = state.played = replace(
             state.played, rev=state.played.rev + 1, **shared
         )
@@ -280,7 +278,7 @@ def take_from_player(document: PlayerDocument | None) -> None:
     """Take over what the student chose in the player, without sending it back."""
     if document is None:
         return
-    shared = {name: getattr(document, name) for name in PLAYED}
+    shared = {name: getattr(document, name) for name in SHARED}
     st.session_state.settings = with_changes(settings(), shared)
     st.session_state.played = document
 

@@ -12,11 +12,8 @@ import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import cache
 from pathlib import Path
 from typing import Any
-
-import streamlit as st
 
 from occsim import ParameterError
 from occsim.strokes import (
@@ -29,6 +26,7 @@ from occsim.strokes import (
     unpack_mask,
 )
 from pages._ui import palette
+from pages._ui.component import component, keep_state
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
@@ -229,7 +227,9 @@ def drawing_board(
         metres_per_px=metres_per_px,
         height_px=height_px,
     )
-    result = _component()(key=key, data=data, on_committed_change=on_commit or _nothing)
+    result = component(COMPONENT, FOLDER, SCRIPTS)(
+        key=key, data=data, on_committed_change=on_commit or keep_state
+    )
     return decode_commit(result.get("committed"), document, mode)
 
 
@@ -326,25 +326,3 @@ def _decoded(point: object, document: BoardDocument) -> BoardPoint:
     if not (0 <= x <= bounds[0] and 0 <= y <= bounds[1] and kind in (0, 1)):
         raise ParameterError("a point must lie inside the drawing")
     return BoardPoint(x_px=x / LATTICE, y_px=y / LATTICE, is_waypoint=bool(kind))
-
-
-def _nothing() -> None:
-    """Streamlit keeps a state value only where there is a callback for it."""
-
-
-@cache
-def _sources() -> dict[str, str]:
-    def text(name: str) -> str:
-        return (FOLDER / name).read_text(encoding="utf-8")
-
-    return {
-        "html": text("board.html"),
-        "css": text("board.css"),
-        "js": "\n".join(text(name) for name in SCRIPTS),
-    }
-
-
-def _component() -> Callable[..., Mapping[str, object]]:
-    # Registered on each run: a registry lives as long as its server, which in tests
-    # is shorter than this module. The same definition again costs and says nothing.
-    return st.components.v2.component(COMPONENT, **_sources())

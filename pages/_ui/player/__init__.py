@@ -11,16 +11,14 @@ import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from enum import Enum
-from functools import cache
 from pathlib import Path
 from typing import Any
-
-import streamlit as st
 
 from occsim import Region, UpdateRule
 from occsim.logodds import DECISION_EPS
 from occsim.prior import PRIOR_SCALE
 from pages._ui import palette
+from pages._ui.component import component, keep_state
 from pages._ui.settings import CHOICES, TABLE, Overlay, Settings, with_changes
 
 FOLDER = Path(__file__).parent
@@ -178,10 +176,10 @@ def map_player(
         The last commit on this rev, decoded and checked; before the first, the imposed
         document.
     """
-    result = _component()(
+    result = component(COMPONENT, FOLDER, SCRIPTS)(
         key=key,
         data=player_data(replay, document, key),
-        on_committed_change=on_commit or _nothing,
+        on_committed_change=on_commit or keep_state,
     )
     return decode_commit(result.get("committed"), document)
 
@@ -257,25 +255,3 @@ def _point(value: object) -> tuple[float, float] | None:
         return None
     x, y = (_bounded(v) for v in value)
     return None if x is None or y is None else (float(x), float(y))
-
-
-def _nothing() -> None:
-    """Streamlit keeps a state value only where there is a callback for it."""
-
-
-@cache
-def _sources() -> dict[str, str]:
-    def text(name: str) -> str:
-        return (FOLDER / name).read_text(encoding="utf-8")
-
-    return {
-        "html": text("player.html"),
-        "css": text("player.css"),
-        "js": "\n".join(text(name) for name in SCRIPTS),
-    }
-
-
-def _component() -> Callable[..., Mapping[str, object]]:
-    # Registered on each run: a registry lives as long as its server, which in tests
-    # is shorter than this module. The same definition again costs and says nothing.
-    return st.components.v2.component(COMPONENT, **_sources())
