@@ -15,6 +15,8 @@ from playwright.sync_api import Browser, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
 START_SECONDS = 60
+# As tests/run looks for it.
+CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome")
 CHROMIUM_ARGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -71,8 +73,8 @@ def no_trouble(log_path: Path) -> None:
 @contextmanager
 def running_chromium() -> Iterator[Browser]:
     """Start the browser that CHROMIUM names, one on the PATH, or Playwright's own."""
-    named = os.environ.get("CHROMIUM")
-    found = named or shutil.which("chromium") or shutil.which("google-chrome")
+    names = os.environ.get("CHROMIUM"), *CHROMIUM_NAMES
+    found = next(filter(None, (shutil.which(name) for name in names if name)), None)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=found, args=CHROMIUM_ARGS)
         yield browser
