@@ -66,3 +66,10 @@ def test_the_example_of_the_readme_runs_as_it_stands():
     precision, recall = map(float, printed.getvalue().split())
     assert 0.0 < precision <= 1.0
     assert 0.0 < recall <= 1.0
+
+
+def test_every_file_that_the_readme_links_to_is_there():
+    links = re.findall(r"\]\(([^)]+)\)", README.read_text(encoding="utf-8"))
+    files = [link for link in links if "://" not in link]
+    assert files
+    assert [link for link in files if not (README.parent / link).is_file()] == []
