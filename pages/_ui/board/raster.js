@@ -5,7 +5,6 @@ const LATTICE = 4; // coordinates and widths are whole quarters of a pixel
 const TEST_POINT = 0.5 + 1 / 64; // where in a pixel it is asked whether it is covered
 const ERASING = new Set(["eraser", "clear"]);
 const BOXES = new Set(["rectangle", "outline", "clear"]);
-const TWO_POINTS = new Set(["line", ...BOXES]);
 
 const snapped = (value) => Math.round(value * LATTICE) / LATTICE;
 const clamped = (value, low, high) => Math.min(Math.max(value, low), high);
