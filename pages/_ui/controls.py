@@ -8,6 +8,8 @@ import streamlit as st
 from pages._ui import state
 from pages._ui.settings import CHOICES, TABLE
 
+CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
+"""What every chart is drawn with: a click chooses, and the wheel scrolls the page."""
 NARROW_PX = 165
 """Two sliders of this width stand side by side on a telephone of 390 px."""
 DRAWING_PX = 290

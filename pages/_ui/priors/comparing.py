@@ -6,9 +6,9 @@ from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
 from occsim.pareto import ParetoFront, near_front
 from pages._ui import compute, controls, state
+from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps, surfaces
 from pages._ui.priors.front_figures import DrawingFront
-from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import SOURCE_PAIR, Run
 
 STEP = 0.02
@@ -38,7 +38,7 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
         count = near_counts(sweeps, all_fronts, settings.tolerance)
         figure = front_figures.region_figure(count, values, len(runs), state.pair())
         st.plotly_chart(
-            figure, config=CONFIG, **state.bind_chart("region", of_pairs=True)
+            figure, config=CHART_CONFIG, **state.bind_chart("region", of_pairs=True)
         )
         controls.slider("tolerance")
     st.markdown(verdict(count.tolist(), runs, settings.tolerance))
@@ -67,7 +67,7 @@ def _overlay(runs: dict[str, Run]) -> None:
         drawn.append(DrawingFront(name, run.front, *pairs))
     figure = front_figures.overlay_figure(drawn, settings.axes, settings.min_recall)
     st.plotly_chart(
-        figure, config=CONFIG, **state.bind_chart(f"fronts_{settings.axes.value}")
+        figure, config=CHART_CONFIG, **state.bind_chart(f"fronts_{settings.axes.value}")
     )
 
 

@@ -5,9 +5,9 @@ import streamlit as st
 from occsim import Prior
 from occsim.pareto import recommend, rectangles_at, set_c
 from pages._ui import controls, palette, state
+from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps
 from pages._ui.priors.front_figures import Mark
-from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import SOURCE_PAIR, Run
 
 
@@ -40,7 +40,7 @@ def _front_chart(run: Run) -> None:
         run.front, settings.axes, _marks(run), settings.min_recall
     )
     st.plotly_chart(
-        figure, config=CONFIG, **state.bind_chart(f"front_{settings.axes.value}")
+        figure, config=CHART_CONFIG, **state.bind_chart(f"front_{settings.axes.value}")
     )
 
 
@@ -85,7 +85,7 @@ def _prior_space(run: Run) -> None:
         run.front, rectangles, state.pair(), state.settings().min_recall
     )
     st.plotly_chart(
-        figure, config=CONFIG, **state.bind_chart("prior_space", of_pairs=True)
+        figure, config=CHART_CONFIG, **state.bind_chart("prior_space", of_pairs=True)
     )
 
 

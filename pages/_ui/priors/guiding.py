@@ -14,9 +14,9 @@ from occsim.formats.prior_map import (
 from occsim.pareto import recommend, set_c
 from pages._ui import compute, palette, state
 from pages._ui.choices import FrontAxes, Handover, Picture
+from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, maps
 from pages._ui.priors.front_figures import Mark
-from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import Run
 
 
@@ -88,7 +88,7 @@ def front(run: Run) -> None:
     figure = front_figures.front_figure(
         run.front, FrontAxes.SCORES, _marks(run), settings.min_recall
     )
-    st.plotly_chart(figure, config=CONFIG, key="path_front")
+    st.plotly_chart(figure, config=CHART_CONFIG, key="path_front")
     n, n_inside = len(run.front), len(set_c(run.front, settings.min_recall))
     st.caption(
         f"{n} point{'' if n == 1 else 's'}, exact; {n_inside} with a recall above "

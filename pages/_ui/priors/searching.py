@@ -8,8 +8,8 @@ from streamlit.delta_generator import DeltaGenerator
 from pages._ui import compute, controls, state
 from pages._ui.choices import Objectives
 from pages._ui.compute import SearchStep
+from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import maps, search_figures
-from pages._ui.priors.sweeping import CONFIG
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
@@ -33,11 +33,11 @@ def search(run: Run) -> None:
         kept = state.kept_search(key)
         if kept:
             figure = search_figures.replay_figure(kept, run.front, settings.axes)
-            place.plotly_chart(figure, config=CONFIG, key="search")
+            place.plotly_chart(figure, config=CHART_CONFIG, key="search")
             st.caption(_summary(kept, settings))
         else:
             figure = search_figures.still_figure([], run.front, settings.axes)
-            place.plotly_chart(figure, config=CONFIG, key="bare")
+            place.plotly_chart(figure, config=CHART_CONFIG, key="bare")
     _words()
 
 
@@ -71,7 +71,9 @@ def _watch(run: Run, settings: Settings, key: object, place: DeltaGenerator) -> 
             )
             if step.number % every == 0:
                 figure = search_figures.still_figure(steps, run.front, settings.axes)
-                place.plotly_chart(figure, config=CONFIG, key=f"live {step.number}")
+                place.plotly_chart(
+                    figure, config=CHART_CONFIG, key=f"live {step.number}"
+                )
     bar.empty()
 
 

@@ -19,8 +19,8 @@ from occsim.study import (
     sweeps_csv,
 )
 from pages._ui import compute, state
+from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures
-from pages._ui.priors.sweeping import CONFIG
 
 TITLES = {
     Objective.PRECISION: "Table 4.1: highest precision",
@@ -124,7 +124,7 @@ def all_fronts(cases: list[StudyCase]) -> None:
         with column:
             st.markdown(f"**Exact fronts, cells of {cell_px} px**")
             figure = front_figures.study_figure(fronts, chosen.axes, chosen.min_recall)
-            st.plotly_chart(figure, config=CONFIG, key=f"study_{cell_px}")
+            st.plotly_chart(figure, config=CHART_CONFIG, key=f"study_{cell_px}")
 
 
 def downloads(cases: list[StudyCase]) -> None:

@@ -12,7 +12,6 @@ from pages._ui.runs import Run
 from pages._ui.settings import with_changes
 
 CELLS = (3, 5, 10)
-CONFIG = {"displayModeBar": False, "scrollZoom": False}
 
 
 def pairs(of: Maxima | ParetoFront) -> list[tuple[float, float]]:
@@ -47,7 +46,9 @@ def surface_chart(run: Run, objective: Objective) -> None:
         front=pairs(run.front) if settings.surface is Surface.EXACT else None,
     )
     key = f"surface_{objective.value}"
-    st.plotly_chart(figure, config=CONFIG, **state.bind_chart(key, of_pairs=True))
+    st.plotly_chart(
+        figure, config=controls.CHART_CONFIG, **state.bind_chart(key, of_pairs=True)
+    )
     if view.has_gaps:
         st.caption(f"Hatched: {surfaces.UNDEFINED}.")
 
@@ -66,7 +67,7 @@ def all_drawings() -> None:
     picture, text = st.columns([3, 2], gap="large")
     with picture:
         figure = surface_figures.rows_figure(rows, list(runs), ends, state.pair())
-        st.plotly_chart(figure, config=CONFIG, key="surface_rows")
+        st.plotly_chart(figure, config=controls.CHART_CONFIG, key="surface_rows")
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:
         show_maxima(runs, f"cells of {settings.cell_px} px", "Drawing")
