@@ -17,6 +17,7 @@ from occsim import (
     truth_cells,
 )
 from occsim.building import building_from_drawing
+from pages._ui.uploads import WORKING_PX
 
 pytestmark = pytest.mark.browser
 
@@ -113,6 +114,23 @@ def test_leaving_the_page_loses_nothing(page, app_url):
     assert counts(page) == before
 
 
+def test_leaving_in_the_middle_of_a_replay_keeps_the_reading_that_was_shown(
+    page, app_url
+):
+    open_page(page, app_url)
+    page.locator("[data-part=scrub]").fill("40")
+    page.locator("[data-part=scrub]").dispatch_event("change")
+    settled(page)
+    page.locator("[data-do=play]").click()
+    page.wait_for_timeout(1200)
+    page.get_by_role("link", name="Home").first.click()
+    page.wait_for_selector(f".compact{PLAYER}")
+    page.get_by_role("link", name="Build a map").first.click()
+    page.wait_for_selector(f".player:not(.compact){PLAYER[7:]}")
+    settled(page)
+    assert int(shown(page, "step")) > 40
+
+
 def test_reset_all_restores_the_preset(page, app_url):
     open_page(page, app_url, "?drawing=d&cell_px=7&p_wall=0.6")
     assert page.locator("[data-slider=p_wall] output").inner_text() == "0.60"
@@ -135,7 +153,8 @@ def test_a_drawing_that_is_not_ours_maps_at_once(page, app_url):
 
     # The same by occsim, with the settings that the page opened with.
     sensor = Sensor(range_px=40.0, fov_rad=np.pi / 6)
-    own = building_from_drawing(load_drawing(data, name="foreign.png"), sensor)
+    drawing = load_drawing(data, name="foreign.png")
+    own = building_from_drawing(drawing, sensor, working_px=WORKING_PX)
     grid = own.world.grid(3)
     log = collect_evidence(own.world, own.trajectory, sensor, grid)
     prior_map = build_prior(own.wall_mask, grid, Prior())

@@ -3,7 +3,8 @@
 // Python owns a document {rev, ...}. The player takes it over when it starts or when rev
 // changes; from then on the student's hand rules, and every commit echoes rev.
 
-const remembered = new Map(); // by key: state of a player that the page unmounted
+// By key: what a player that the page unmounted showed, and what Python knows of it.
+const remembered = new Map();
 
 function readData(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset);
@@ -85,6 +86,7 @@ class Player {
     if (!this.stage) this.start(header);
     this.header = header;
     if (!sameDocument) this.adopt(header);
+    remembered.get(header.key).digest = header.digest;
     if (!sameReplay) await this.replace(replay);
     else if (!sameDocument) this.restore();
     else this.retheme();
@@ -101,12 +103,24 @@ class Player {
     }
   }
 
-  // A remount without word from Python goes on where this player was.
+  // A remount without word from Python goes on where this player was. While it plays
+  // nothing is sent, so that Python's word may be the step at which Play was pressed:
+  // where that is all it knows of the same replay, the step that was shown counts.
   adopt(header) {
+    const isNew = !this.state;
     const known = remembered.get(header.key);
-    const goesOn = known && known.rev === header.document.rev;
-    this.state = goesOn ? known : { ...header.document };
-    remembered.set(header.key, this.state);
+    if (known && known.state.rev === header.document.rev) {
+      this.state = known.state;
+      return;
+    }
+    this.state = { ...header.document };
+    const stale =
+      isNew &&
+      known?.digest === header.digest &&
+      known.toldStep === header.document.step;
+    if (stale) this.state.step = known.state.step;
+    const toldStep = header.document.step;
+    remembered.set(header.key, { state: this.state, toldStep });
   }
 
   // A running replay stops where it is: what was played is no more.
@@ -150,7 +164,10 @@ class Player {
   commit(delay = 0) {
     if (this.state.compact) return;
     clearTimeout(this.commitTimer);
-    const tell = () => this.send("committed", { ...this.state });
+    const tell = () => {
+      remembered.get(this.header.key).toldStep = this.state.step;
+      this.send("committed", { ...this.state });
+    };
     this.commitTimer = setTimeout(tell, delay);
   }
 
