@@ -12,16 +12,17 @@ HOME_REPLAY = PlayerDocument(rev=1, compact=True)
 
 shell.begin("app.py")
 
-words, picture = st.columns([2, 3], gap="large", vertical_alignment="center")
-with words:
-    st.title("Occupancy grid mapping with informative priors", anchor=False)
-    st.markdown(
-        "A robot with a range sensor drives through a building and records, cell by "
-        "cell, how probable it is that the cell is free. If the architect's drawing "
-        "is known, its walls can be what the map starts from: its *prior*. Here you "
-        "can watch such maps grow, change the prior while they do, and find out which "
-        "priors help and which mislead."
-    )
+st.title("Occupancy grid mapping with informative priors", anchor=False)
+st.markdown(
+    "A robot with a range sensor drives through a building and records, cell by cell, "
+    "how probable it is that the cell is free. If the architect's drawing is known, "
+    "its walls can be what the map starts from: its *prior*. Here you can watch such "
+    "maps grow, change the prior while they do, and find out which priors help and "
+    "which mislead."
+)
+with st.container(key="home"):
+    links, picture = st.columns([2, 3], gap="large")
+with links:
     for lesson in shell.LESSONS[1:]:
         st.page_link(
             lesson.path, label=f"**{lesson.label}**", icon=":material/arrow_forward:"
@@ -31,7 +32,9 @@ with picture:
     building = compute.sample(HOME_SAMPLE)
     sensor = load_sample(HOME_SAMPLE).sensor
     map_player(
-        compute.replay(building, sensor, Settings().cell_px), HOME_REPLAY, key="home"
+        compute.replay(building, sensor, Settings().cell_px),
+        HOME_REPLAY,
+        key="home_player",
     )
     st.caption(
         f"The robot maps “{building.title}”. White is free, black is occupied, grey "

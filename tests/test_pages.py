@@ -156,8 +156,8 @@ def test_poses_in_walls_and_outside_are_counted_and_can_be_dropped():
     app = launch(BUILD)
     app.selectbox(key="control_choice").select("a").run()
     app = upload(app, "Trajectory", "path.csv", rows, "text/csv")
-    assert "1 of 4 poses lie outside" in app.warning[0].value
-    assert "1 stand in walls" in app.warning[0].value
+    notice = "Of 4 poses, 1 outside the drawing and 1 in walls."
+    assert app.warning[0].value == notice
     next(b for b in app.button if b.label == "Drop them").click().run()
     assert not app.warning
     assert len(own(app).trajectory) == 2

@@ -182,7 +182,7 @@ def test_the_path_ends_in_four_files(handover):
         "CSV",
         "JSON",
     ]
-    assert "Median of a step" in texts(app)
+    assert "| Fastest | Median | Slowest |" in texts(app)
     press(app, "Measure again")
 
 

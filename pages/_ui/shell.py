@@ -71,7 +71,12 @@ CSS = """
 [data-testid="stHeader"] { display: none; }
 [data-testid="stVerticalBlock"] { gap: 0.5rem; }
 .stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
-@media (max-width: 640px) { .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; } }
+@media (max-width: 640px) {
+    .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
+    /* On a telephone the picture that moves comes before the list of lessons. */
+    .st-key-home [data-testid="stHorizontalBlock"] { flex-direction: column-reverse; }
+}
+.st-key-home [data-testid="stCaptionContainer"] { margin-top: -0.5rem; }
 </style>
 """
 

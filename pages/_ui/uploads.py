@@ -142,14 +142,15 @@ def _use_trajectory(file: Any) -> None:
 def pose_notice() -> None:
     """Say how many poses cannot be real, and offer to drop them."""
     building = state.building()
-    n_bad = building.n_outside + building.n_inside_walls
-    if not n_bad:
+    found = (
+        (building.n_outside, "outside the drawing"),
+        (building.n_inside_walls, "in walls"),
+    )
+    bad = [f"{n} {where}" for n, where in found if n]
+    if not bad:
         return
     with st.container(horizontal=True, vertical_alignment="center"):
-        st.warning(
-            f"{building.n_outside} of {len(building.trajectory)} poses lie outside the "
-            f"drawing and {building.n_inside_walls} stand in walls."
-        )
+        st.warning(f"Of {len(building.trajectory)} poses, {' and '.join(bad)}.")
         st.button("Drop them", on_click=state.edit, args=(_drop_poses,))
 
 

@@ -38,6 +38,10 @@ def search(run: Run) -> None:
         else:
             figure = search_figures.still_figure([], run.front, settings.axes)
             place.plotly_chart(figure, config=CHART_CONFIG, key="bare")
+            st.caption(
+                "No search was run yet. Below the front stands then the hypervolume, "
+                "generation by generation."
+            )
     _words()
 
 
