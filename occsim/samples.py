@@ -7,10 +7,9 @@ The ground truths hold structure only. ``python -m assets.samples.make`` makes t
 
 References
 ----------
-.. [1] C. Georgiou, S. Anderson and T. Dodd, "Constructing informative Bayesian map
-   priors: a multi-objective optimisation approach applied to indoor occupancy grid
-   mapping", IJRR 36(3), 2017, doi 10.1177/0278364916687027, Figs 4.3 and 4.4 of the
-   thesis of the same work.
+.. [1] C. Georgiou, "Constructing informative Bayesian priors to improve SLAM map
+   quality", Figs 4.3 and 4.4; C. Georgiou, S. Anderson and T. Dodd, IJRR 2017,
+   doi 10.1177/0278364916687027.
 """
 
 import json

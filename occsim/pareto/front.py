@@ -2,9 +2,9 @@
 
 References
 ----------
-.. [1] C. Georgiou, S. Anderson and T. Dodd, "Constructing informative Bayesian map
-   priors", IJRR 36(3), 2017, doi 10.1177/0278364916687027; sec. 4.6 of the thesis of
-   the same work: Figs 4.6d and 4.7, set C.
+.. [1] C. Georgiou, "Constructing informative Bayesian priors to improve SLAM map
+   quality", sec. 4.6: Figs 4.6d and 4.7, set C; C. Georgiou, S. Anderson and T. Dodd,
+   IJRR 2017, doi 10.1177/0278364916687027.
 """
 
 from collections.abc import Sequence

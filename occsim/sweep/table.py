@@ -2,9 +2,9 @@
 
 References
 ----------
-.. [1] C. Georgiou, S. Anderson and T. Dodd, "Constructing informative Bayesian map
-   priors", IJRR 36(3), 2017, doi 10.1177/0278364916687027; sec. 4.6 of the thesis of
-   the same work: Fig. 4.5, Tables 4.1 and 4.2.
+.. [1] C. Georgiou, "Constructing informative Bayesian priors to improve SLAM map
+   quality", sec. 4.6: Fig. 4.5, Tables 4.1 and 4.2; C. Georgiou, S. Anderson and
+   T. Dodd, IJRR 2017, doi 10.1177/0278364916687027.
 """
 
 from dataclasses import dataclass
