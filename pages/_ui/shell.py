@@ -73,7 +73,7 @@ CSS = """
 .stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
-    /* Choices side by side that do not fit stand in rows: none may hide beyond the edge. */
+    /* Choices that do not fit side by side stand in rows: none may hide. */
     [data-testid="stButtonGroup"] > div { flex-wrap: wrap; }
     /* On a telephone the picture that moves comes before the list of lessons. */
     .st-key-home [data-testid="stHorizontalBlock"] { flex-direction: column-reverse; }

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from occsim import load_sample
 from occsim.formats.project import load_project
+from pages._ui.state import OPENING
 from tests.browser.test_board import READY, near
 
 pytestmark = pytest.mark.browser
@@ -213,5 +215,5 @@ def test_poses_are_edited_in_the_table(workshop, page):
     editor.first.fill("33.5")
     expect(editor.first).to_have_value("33.5")
     editor.first.press("Enter")
-    workshop.shows("Yours: House, ground floor")
+    workshop.shows(f"Yours: {load_sample(OPENING).title}")
     assert workshop.project().trajectory.poses[0, 0] == 33.5
