@@ -71,6 +71,8 @@ CSS = """
 [data-testid="stHeader"] { display: none; }
 [data-testid="stVerticalBlock"] { gap: 0.5rem; }
 .stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
+/* As high as a select box, so that neighbours and their labels stand level. */
+[data-testid="stButtonGroup"] > div button { min-height: 2.5rem; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
