@@ -46,6 +46,12 @@ def upload(app, label, name, data, mime="image/png"):
     return app
 
 
+def file_in(app, label):
+    """The name of the file that an uploader lists, or None."""
+    file = next(x for x in app.get("file_uploader") if x.label == label).value
+    return file.name if file else None
+
+
 def own(app):
     return app.session_state["own"]
 
@@ -114,6 +120,15 @@ def test_a_ground_truth_must_have_the_drawings_size():
     app = upload(app, "Ground truth", "truth.png", png(rooms()))
     assert not app.error
     assert own(app).truth is not None
+
+
+def test_a_new_drawing_forgets_the_files_of_the_last_one():
+    app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
+    app = upload(app, "Ground truth", "truth.png", png(rooms()))
+    assert file_in(app, "Ground truth") == "truth.png"
+    app = upload(app, "Drawing", "small.png", png(rooms(120, 150)))
+    assert own(app).truth is None
+    assert file_in(app, "Ground truth") is None
 
 
 BAD_IMAGES = {

@@ -21,6 +21,7 @@ MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
 PAGE = "pdf_page"
+DRAWINGS = "drawings_taken"
 
 
 def panel() -> None:
@@ -53,7 +54,7 @@ def truth(key: str) -> None:
     """Draw the upload of a ground truth."""
     _uploader(
         "Ground truth",
-        key,
+        _of_this_drawing(key),
         IMAGE_TYPES,
         _use_truth,
         "An image of the drawing's size: black is wall, white is free. Without one the "
@@ -63,6 +64,7 @@ def truth(key: str) -> None:
 
 def trajectory(key: str) -> None:
     """Draw the upload of a trajectory, and ask for the unit of its angles."""
+    key = _of_this_drawing(key)
     _uploader(
         "Trajectory",
         key,
@@ -76,6 +78,11 @@ def trajectory(key: str) -> None:
         horizontal=True,
         **state.bind_view("angle_unit", "As the file says", partial(_again, key)),
     )
+
+
+def _of_this_drawing(key: str) -> str:
+    """A key that is new with each drawing: no file for the last one is shown."""
+    return f"{key}_{state.view(DRAWINGS, 0)}"
 
 
 def _uploader(
@@ -117,6 +124,7 @@ def _map(loaded: Drawing) -> None:
     working_px = int(state.view(WORKING, WORKING_PX))
     sensor = state.settings().sensor
     state.set_own(compute.own_building(loaded, sensor, working_px))
+    state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 
 def _use_truth(file: Any) -> None:
