@@ -9,10 +9,9 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import Trajectory, load_drawing, load_trajectory
+from occsim import load_drawing, load_trajectory
 from occsim.building import truth_from_image
 from occsim.drawing import Drawing, is_pdf, load_pdf_page, pdf_page_count
-from occsim.tour import default_tour
 from pages._ui import compute, state
 
 IMAGE_TYPES = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif", "pgm", "pdf"]
@@ -164,8 +163,3 @@ def pose_notice() -> None:
 
 def _drop_poses() -> None:
     state.edit_building(trajectory=state.building().valid_trajectory())
-
-
-def plan_tour() -> Trajectory:
-    """A tour of the free space of the building that is mapped."""
-    return default_tour(state.building().world, state.settings().sensor)
