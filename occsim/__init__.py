@@ -6,10 +6,11 @@ sensor says (once, free of any prior), the map that any prior then gives, how go
 map is, and which priors are best.
 """
 
-from occsim.drawing import Drawing, load_drawing
 from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
 from occsim.evidence import EvidenceLog, collect_evidence
 from occsim.grid import Grid
+from occsim.imaging import Drawing, load_drawing
+from occsim.io.trajectories import TrajectoryFormat, dump_trajectory, load_trajectory
 from occsim.logodds import logit, p_free_from_log_odds
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.metrics import (
@@ -21,43 +22,38 @@ from occsim.metrics import (
     score,
     scores_by_reading,
 )
-from occsim.nsga2 import (
+from occsim.prior import Prior, PriorMap, build_prior
+from occsim.priors import (
     Elitism,
     Generation,
-    exact_objective,
-    interpolated_objective,
-    nsga2_front,
-    nsga2_generations,
-)
-from occsim.pareto import (
+    Objective,
     ParetoFront,
+    PriorSurface,
+    PriorSweep,
     dominates,
     exact_front,
+    exact_objective,
     good_region,
     hypervolume,
+    interpolate,
+    interpolated_objective,
+    maxima,
     near_front,
     non_dominated,
+    nsga2_front,
+    nsga2_generations,
+    prior_surface,
     recommend,
     rectangles_at,
     reference_point,
     set_c,
     surface_front,
-)
-from occsim.prior import Prior, PriorMap, build_prior
-from occsim.samples import Sample, load_sample, sample_names
-from occsim.sensor import BehindHit, Sensor
-from occsim.sweep import (
-    Objective,
-    PriorSurface,
-    PriorSweep,
-    interpolate,
-    maxima,
-    prior_surface,
     sweep_priors,
 )
+from occsim.samples import Sample, load_sample, sample_names
+from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
-from occsim.trajectory_files import TrajectoryFormat, dump_trajectory, load_trajectory
 from occsim.walls import WallDetection, WallParams, detect_walls
 from occsim.world import World, truth_cells
 

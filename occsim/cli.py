@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from occsim.errors import OccsimError, ParameterError
-from occsim.formats.image_files import png
+from occsim.io.images import png
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
-from occsim.published import SOURCE_CELLS_PX
 from occsim.samples import sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.study import (
@@ -31,6 +30,7 @@ from occsim.study import (
     study_drawing,
     sweeps_csv,
 )
+from occsim.study.published import SOURCE_CELLS_PX
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -4,7 +4,7 @@ One frame everywhere: x to the right, y **down**, origin at the outer corner of 
 top-left pixel, unit pixel. Pixel (row r, col c) covers [c, c+1) x [r, r+1) and has its
 centre at (c + 0.5, r + 0.5). A heading is in radians, from +x towards +y, so that
 pi/2 points down on the screen. Frames with y up (ROS, TUM, CARMEN) are converted in
-:mod:`occsim.formats` and nowhere else.
+:mod:`occsim.io` and nowhere else.
 """
 
 import numpy as np

@@ -11,6 +11,9 @@ from occsim.grid import Grid, cells_of
 from occsim.logodds import logit
 from occsim.world import wall_cells
 
+SOURCE_PAIR = (0.2, 0.9)
+"""(p_wall, p_space) that the source chose in the end, Fig. 4.6e."""
+
 PRIOR_SCALE = 0.9
 """Factor on p_wall and p_space: keeps a value of 1 away from infinite log-odds."""
 
@@ -33,8 +36,8 @@ class Prior:
         Where a value lies outside its domain.
     """
 
-    p_wall: float = 0.2
-    p_space: float = 0.9
+    p_wall: float = SOURCE_PAIR[0]
+    p_space: float = SOURCE_PAIR[1]
     scale: float = PRIOR_SCALE
 
     def __post_init__(self) -> None:

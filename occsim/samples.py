@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from occsim.drawing import Drawing, load_drawing
 from occsim.errors import ParameterError
+from occsim.imaging import Drawing, load_drawing
 from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 from occsim.world import World

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from occsim._types import BoolArray
-from occsim.drawing import Drawing
 from occsim.errors import ParameterError
 from occsim.grid import Grid
+from occsim.imaging import Drawing
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from occsim.building import (
     truth_from_image,
     turned,
 )
-from occsim.formats.pose_table import pose_columns, trajectory_from_columns
+from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
 from occsim.sensor import Sensor
 from occsim.strokes import Stroke, StrokeKind
 from occsim.world import World

@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from occsim.drawing import (
+from occsim.errors import DrawingError
+from occsim.imaging import (
     MAX_PIXELS,
     Drawing,
     is_pdf,
@@ -19,7 +20,6 @@ from occsim.drawing import (
     load_pdf_page,
     pdf_page_count,
 )
-from occsim.errors import DrawingError
 
 # An odd, asymmetric picture: a turned, mirrored or colour-swapped one differs.
 PICTURE = np.full((20, 30, 3), 255, np.uint8)

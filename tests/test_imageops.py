@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occsim.drawing import Drawing, load_drawing
 from occsim.errors import DrawingError, ParameterError
-from occsim.imageops import (
+from occsim.imaging import Drawing, load_drawing
+from occsim.imaging.transform import (
     crop,
     crop_matrix,
     deskew,

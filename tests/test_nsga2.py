@@ -7,16 +7,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from occsim import Grid, ParameterError, UpdateRule, collect_evidence, load_sample
-from occsim.nsga2 import (
+from occsim.priors import (
     Elitism,
+    Objective,
+    exact_front,
     exact_objective,
     geometric_shares,
+    interpolate,
     interpolated_objective,
+    non_dominated,
     nsga2_front,
     nsga2_generations,
+    prior_surface,
+    reference_point,
+    sweep_priors,
 )
-from occsim.pareto import exact_front, non_dominated, reference_point
-from occsim.sweep import Objective, interpolate, prior_surface, sweep_priors
 from occsim.world import truth_cells
 from tests.test_metrics import log_of
 
@@ -191,5 +196,5 @@ def test_an_objective_that_returns_something_else_is_refused(objective, message)
 
 
 def test_importing_the_library_does_not_import_pymoo():
-    check = "import sys, occsim, occsim.nsga2; sys.exit('pymoo' in sys.modules)"
+    check = "import sys, occsim, occsim.priors; sys.exit('pymoo' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0

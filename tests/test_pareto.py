@@ -5,8 +5,10 @@ from hypothesis import strategies as st
 
 from occsim import Grid, ParameterError, UpdateRule, collect_evidence, load_sample
 from occsim.metrics import Region, precision_of, recall_of
-from occsim.pareto import (
+from occsim.priors import (
     ParetoFront,
+    PriorSurface,
+    StepCount,
     dominates,
     exact_front,
     front_of,
@@ -14,13 +16,14 @@ from occsim.pareto import (
     hypervolume,
     near_front,
     non_dominated,
+    prior_surface,
     recommend,
     rectangles_at,
     reference_point,
     set_c,
     surface_front,
+    sweep_priors,
 )
-from occsim.sweep import PriorSurface, StepCount, prior_surface, sweep_priors
 from occsim.world import truth_cells
 from tests.test_metrics import log_of, logged_cases
 from tests.test_sweep import fused_score, sweep_of

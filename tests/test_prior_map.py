@@ -17,16 +17,16 @@ from occsim import (
     fuse,
     load_drawing,
 )
-from occsim.cost import fuse_stepwise, step_costs
-from occsim.formats.map_pictures import (
+from occsim.io.map_pictures import (
     OutcomeColours,
     belief_picture,
     change_picture,
     outcome_picture,
 )
-from occsim.formats.prior_map import prior_csv, prior_json, prior_npy, prior_png
+from occsim.io.prior_map import prior_csv, prior_json, prior_npy, prior_png
 from occsim.mapping import OccupancyMap
 from occsim.prior import prior_from_cells
+from occsim.study.cost import fuse_stepwise, step_costs
 from tests.test_metrics import log_of
 
 COLOURS = OutcomeColours(

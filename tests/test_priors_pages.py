@@ -17,9 +17,8 @@ from occsim import (
     sample_names,
 )
 from occsim.building import Building, CorrectedMask, empty_mask
-from occsim.drawing import load_drawing
-from occsim.nsga2 import Elitism
-from occsim.pareto import near_front
+from occsim.imaging import load_drawing
+from occsim.priors import Elitism, near_front
 from pages._ui import compute
 from pages._ui.choices import (
     Drawings,

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from occsim import Drawing, OccsimError, Trajectory, load_drawing
 from occsim.building import Building, CorrectedMask
-from occsim.formats.image_files import class_png, mask_png, png
-from occsim.formats.project import (
+from occsim.io.images import class_png, mask_png, png
+from occsim.io.project import (
     DRAWING_NAME,
     JSON_NAME,
     TRAJECTORY_NAME,

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from occsim import EvidenceLog, Grid, ParameterError, Sensor, Trajectory
-from occsim.drawing import Drawing
-from occsim.formats.replay import (
+from occsim.imaging import Drawing
+from occsim.io.replay import (
     PREVIEW_MAX_PX,
     encode_preview,
     pack_replay,
@@ -178,7 +178,7 @@ def test_sizes_that_do_not_fit_are_refused(changes, message):
 
 
 def test_a_run_too_long_for_a_browser_is_refused(monkeypatch):
-    monkeypatch.setattr("occsim.formats.replay.MAX_ENTRIES", 2)
+    monkeypatch.setattr("occsim.io.replay.MAX_ENTRIES", 2)
     log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0, 1: 1.0, 2: 1.0}])
     with pytest.raises(ParameterError, match="at most 2 cell updates; this run has 3"):
         pack(log)

@@ -7,7 +7,7 @@ from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
 from occsim import BehindHit, Region, UpdateRule
-from occsim.nsga2 import Elitism
+from occsim.priors import Elitism
 from pages._ui.choices import (
     Drawings,
     Exploring,

@@ -13,9 +13,8 @@ import pytest
 from occsim import Drawing, ParameterError, Sensor, Trajectory, UpdateRule
 from occsim.building import Building, CorrectedMask
 from occsim.cli import main
-from occsim.formats.image_files import mask_png, png
-from occsim.pareto import ParetoFront
-from occsim.published import SOURCE_AXIS, published_maximum
+from occsim.io.images import mask_png, png
+from occsim.priors import SOURCE_AXIS, Objective, ParetoFront, PriorSweep
 from occsim.study import (
     StudyCase,
     StudyDrawing,
@@ -36,7 +35,7 @@ from occsim.study import (
     study_drawing,
     sweeps_csv,
 )
-from occsim.sweep import Objective, PriorSweep
+from occsim.study.published import published_maximum
 
 AXIS = np.array(SOURCE_AXIS)
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from occsim import EvidenceLog, Grid, ParameterError, Prior, UpdateRule, fuse
 from occsim.metrics import Region, Scores, score
 from occsim.prior import prior_from_cells
-from occsim.sweep import (
+from occsim.priors import (
     Objective,
     PriorSweep,
     interpolate,

@@ -12,8 +12,16 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from occsim.errors import ParameterError, TrajectoryError
-from occsim.formats.metric import MetricFrame, poses_to_image, poses_to_metric
 from occsim.geometry import CARDINAL_HEADINGS_RAD
+from occsim.io.metric import MetricFrame, poses_to_image, poses_to_metric
+from occsim.io.trajectories import (
+    MAX_POSES,
+    TrajectoryFormat,
+    dump_trajectory,
+    load_trajectory,
+    read_trajectory_table,
+)
+from occsim.io.trajectories.mat import MAX_INFLATED_BYTES
 from occsim.trajectory import (
     MAX_RESAMPLED,
     HeadingMode,
@@ -23,14 +31,6 @@ from occsim.trajectory import (
     resample,
     without,
 )
-from occsim.trajectory_files import (
-    MAX_POSES,
-    TrajectoryFormat,
-    dump_trajectory,
-    load_trajectory,
-    read_trajectory_table,
-)
-from occsim.trajectory_files.mat import MAX_INFLATED_BYTES
 from occsim.world import World
 
 TWO = [[1.5, 2.5, 0.5], [3.0, 4.25, -1.25]]

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from occsim.drawing import Drawing
 from occsim.errors import ParameterError
+from occsim.imaging import Drawing
 from occsim.samples import load_sample
 from occsim.walls import (
     STAGE_NOTES,

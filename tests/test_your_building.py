@@ -17,7 +17,7 @@ from occsim import (
     dump_trajectory,
     load_sample,
 )
-from occsim.formats.project import Project, dump_project
+from occsim.io.project import Project, dump_project
 from occsim.strokes import Stroke, StrokeKind, encode_strokes
 from pages._ui.state import OPENING
 from pages._ui.workshop import poses

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from occsim.building.model import DOOR_WIDTH_M, Building, CorrectedMask
-from occsim.drawing import MAX_SIDE_PX, Drawing
-from occsim.imageops import fit_to
+from occsim.imaging import MAX_SIDE_PX, Drawing
+from occsim.imaging.transform import fit_to
 from occsim.samples import load_sample
 from occsim.sensor import Sensor
 from occsim.tour import default_tour, random_poses

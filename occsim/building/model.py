@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from occsim._types import BoolArray
-from occsim.drawing import Drawing
 from occsim.errors import DrawingError
+from occsim.imaging import Drawing
 from occsim.strokes import MAX_POINTS, MAX_STROKES, Stroke, apply_strokes
 from occsim.trajectory import (
     Trajectory,

@@ -8,8 +8,8 @@ import numpy as np
 
 from occsim._types import BoolArray, FloatArray
 from occsim.building.model import Building, CorrectedMask
-from occsim.drawing import Drawing
-from occsim.imageops import (
+from occsim.imaging import Drawing
+from occsim.imaging.transform import (
     crop,
     crop_matrix,
     deskew,
@@ -78,7 +78,7 @@ def straightened(building: Building, tilt_rad: float) -> Building:
         Anything made on its drawing turns with it; rectangles drawn by hand keep two of
         their corners and stay upright.
     tilt_rad : float
-        As from `occsim.imageops.estimate_tilt`, rad.
+        As from `occsim.imaging.transform.estimate_tilt`, rad.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def straightened(building: Building, tilt_rad: float) -> Building:
     Raises
     ------
     DrawingError, ParameterError
-        As `occsim.imageops.deskew` does.
+        As `occsim.imaging.transform.deskew` does.
     """
     drawing = deskew(building.drawing, tilt_rad)
     matrix = deskew_matrix(building.drawing.shape, tilt_rad)

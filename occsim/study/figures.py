@@ -7,9 +7,8 @@ import numpy as np
 
 from occsim._types import ByteArray, FloatArray
 from occsim.errors import ParameterError
-from occsim.pareto import ParetoFront
+from occsim.priors import Maxima, Objective, ParetoFront, PriorSweep, interpolate
 from occsim.study.run import StudyCase
-from occsim.sweep import Maxima, Objective, PriorSweep, interpolate
 
 MAP_PX = 200
 """Side of a colour map, px."""

@@ -13,9 +13,8 @@ import cv2
 import numpy as np
 
 from occsim._types import FloatArray
-from occsim.pareto import ParetoFront
+from occsim.priors import ParetoFront, PriorSweep
 from occsim.study.run import StudyCase, StudyDrawing, StudySettings
-from occsim.sweep import PriorSweep
 
 FORMAT = "occsim study case"
 VERSION = 1

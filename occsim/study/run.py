@@ -10,23 +10,27 @@ import numpy as np
 
 from occsim._types import Progress
 from occsim.building import Building, building_from_drawing, building_from_sample
-from occsim.drawing import load_drawing
 from occsim.errors import ParameterError
 from occsim.evidence import collect_evidence
+from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
-from occsim.pareto import MIN_RECALL, ParetoFront, recommend, surface_front
-from occsim.published import SOURCE_AXIS, SOURCE_CELLS_PX
-from occsim.samples import load_sample, sample_names
-from occsim.sensor import BehindHit, Sensor
-from occsim.sweep import (
+from occsim.priors import (
+    MIN_RECALL,
+    SOURCE_AXIS,
     Maxima,
     Objective,
+    ParetoFront,
     PriorSweep,
     maxima,
     prior_surface,
+    recommend,
+    surface_front,
     sweep_surface,
 )
+from occsim.samples import load_sample, sample_names
+from occsim.sensor import BehindHit, Sensor
+from occsim.study.published import SOURCE_CELLS_PX
 from occsim.world import truth_cells, wall_cells
 
 

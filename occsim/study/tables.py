@@ -6,10 +6,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from occsim.pareto import MIN_RECALL
-from occsim.published import published_maximum
+from occsim.priors import MIN_RECALL, Objective
+from occsim.study.published import published_maximum
 from occsim.study.run import LOW_SPACE, Pattern, StudyCase, pattern
-from occsim.sweep import Objective
 
 _TITLES = {
     Objective.PRECISION: "Maximum precision (Table 4.1)",

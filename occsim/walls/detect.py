@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from occsim._types import ByteArray, FloatArray
-from occsim.drawing import Drawing
+from occsim.imaging import Drawing
 from occsim.walls.arcs import find_swings
 from occsim.walls.bands import textured, wall_bands
 from occsim.walls.connect import connected_walls, line_walls

@@ -8,7 +8,7 @@ to, so all sessions share one copy of them (``cache_resource``).
 
 import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -26,21 +26,26 @@ from occsim import (
 )
 from occsim._types import FloatArray
 from occsim.building import Building, building_from_drawing, building_from_sample
-from occsim.cost import StepCost
-from occsim.cost import step_costs as timed_steps
-from occsim.drawing import Drawing
-from occsim.formats.image_files import drawing_png, png
-from occsim.formats.replay import MAX_ENTRIES, pack_replay
-from occsim.imageops import estimate_tilt
-from occsim.nsga2 import (
+from occsim.imaging import Drawing
+from occsim.imaging.transform import estimate_tilt
+from occsim.io.images import drawing_png, png
+from occsim.io.replay import MAX_ENTRIES, pack_replay
+from occsim.priors import (
+    SOURCE_AXIS,
+    PriorSweep,
+    hypervolume,
     interpolated_objective,
     nsga2_generations,
+    prior_surface,
+    reference_point,
+    surface_front,
     surface_objective,
+    sweep_surface,
 )
-from occsim.pareto import hypervolume, reference_point, surface_front
 from occsim.sensor import most_cells_in_view
 from occsim.study import StudyCase, StudyDrawing, StudySettings, run_case
-from occsim.sweep import PriorSweep, prior_surface, sweep_surface
+from occsim.study.cost import StepCost
+from occsim.study.cost import step_costs as timed_steps
 from occsim.walls import (
     MaskComparison,
     WallDetection,
@@ -176,7 +181,7 @@ def reference_run(name: str, settings: Settings) -> Run:
     return run(sample(name), with_changes(settings, {"range_px": range_px}))
 
 
-def sweep(of: Run, values: list[float]) -> PriorSweep:
+def sweep(of: Run, values: Sequence[float]) -> PriorSweep:
     """The exact scores of every pair of some values."""
     with core():
         return sweep_surface(of.surface, values, values)
@@ -208,8 +213,7 @@ def search(of: Run, settings: Settings) -> Iterator[SearchStep]:
     """The generations of a search for the front, each as soon as it is there."""
     exact, ref = surface_objective(of.surface), reference_point(of.front)
     interpolated = settings.objectives is Objectives.INTERPOLATED
-    tenths = [round(0.1 * i, 1) for i in range(1, 11)]
-    table = interpolated_objective(sweep(of, tenths))
+    table = interpolated_objective(sweep(of, SOURCE_AXIS))
     generations = nsga2_generations(
         table if interpolated else exact,
         pop_size=settings.pop_size,

@@ -14,21 +14,20 @@ from occsim import (
 )
 from occsim._types import BoolArray
 from occsim.building import Building
-from occsim.formats.image_files import png
-from occsim.formats.map_pictures import (
+from occsim.io.images import png
+from occsim.io.map_pictures import (
     OutcomeColours,
     belief_picture,
     change_picture,
     outcome_picture,
 )
-from occsim.pareto import ParetoFront
 from occsim.prior import prior_from_cells
+from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import Picture
 from pages._ui.settings import Settings
 
 ZOOM = 2
-SOURCE_PAIR = (0.2, 0.9)
 OUTCOME_COLOURS = OutcomeColours(
     hit=palette.HIT,
     false_wall=palette.FALSE_WALL,

@@ -11,7 +11,7 @@ from enum import Enum
 from typing import Any
 
 from occsim import BehindHit, Prior, Region, Sensor, UpdateRule
-from occsim.nsga2 import Elitism
+from occsim.priors import Elitism
 from pages._ui.choices import (
     Drawings,
     Exploring,

@@ -11,7 +11,7 @@ import streamlit as st
 
 from occsim import load_drawing, load_trajectory
 from occsim.building import truth_from_image
-from occsim.drawing import Drawing, is_pdf, load_pdf_page, pdf_page_count
+from occsim.imaging import Drawing, is_pdf, load_pdf_page, pdf_page_count
 from pages._ui import compute, state
 
 IMAGE_TYPES = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif", "pgm", "pdf"]

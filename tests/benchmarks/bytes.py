@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from occsim import collect_evidence, load_sample, sample_names, truth_cells
 from occsim.building import building_from_sample
-from occsim.formats.replay import pack_replay
+from occsim.io.replay import pack_replay
 from occsim.world import wall_cells
 from tests.benchmarks.table import Row
 

@@ -6,10 +6,14 @@ import numpy as np
 
 from occsim import collect_evidence, load_sample, sample_names
 from occsim.mapping import UpdateRule
-from occsim.nsga2 import exact_objective, nsga2_front
-from occsim.pareto import exact_front, reference_point
+from occsim.priors import (
+    exact_front,
+    exact_objective,
+    nsga2_front,
+    reference_point,
+    sweep_priors,
+)
 from occsim.study import run_study, study_drawing
-from occsim.sweep import sweep_priors
 from occsim.world import truth_cells, wall_cells
 from tests.benchmarks.table import Row, median_ms, timed_row
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import cv2
 
-from occsim.drawing import Drawing
+from occsim.imaging import Drawing
 from occsim.samples import load_sample, sample_names
 from occsim.walls import compare_masks, detect_walls
 from tests.benchmarks.table import Row, median_ms, timed_row

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from occsim import Prior
-from occsim.formats.prior_map import prior_npy
+from occsim.io.prior_map import prior_npy
 from pages._ui import compute
 from pages._ui.settings import Settings
 from tests.test_priors_pages import longest_front

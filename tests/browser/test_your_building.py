@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from occsim import load_sample
-from occsim.formats.project import load_project
+from occsim.io.project import load_project
 from pages._ui.state import OPENING
 from tests.browser.test_board import READY, near
 

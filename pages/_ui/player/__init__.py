@@ -1,6 +1,6 @@
 """The map player: a mapping run replayed in the browser, with the prior in hand.
 
-One Streamlit component. Python sends a replay (`occsim.formats.replay`) and a document
+One Streamlit component. Python sends a replay (`occsim.io.replay`) and a document
 once; the player fuses, scores and draws by itself and tells Python what the student
 chose when a hand lets go. The scripts beside this file are plain functions, joined here
 in a fixed order into the one module that Streamlit wants.
@@ -162,7 +162,7 @@ def map_player(
     Parameters
     ----------
     replay : bytes
-        From `occsim.formats.replay.pack_replay`.
+        From `occsim.io.replay.pack_replay`.
     document : PlayerDocument
         The imposed document.
     key : str

@@ -4,12 +4,12 @@ import streamlit as st
 
 from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
-from occsim.pareto import ParetoFront, near_front
+from occsim.priors import ParetoFront, near_front
 from pages._ui import compute, controls, state
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps, surfaces
 from pages._ui.priors.front_figures import DrawingFront
-from pages._ui.runs import SOURCE_PAIR, Run
+from pages._ui.runs import Run
 
 STEP = 0.02
 TOLERANCE_STEP, MAX_TOLERANCE = 0.005, 0.5
@@ -59,7 +59,7 @@ def near_counts(
 
 def _overlay(runs: dict[str, Run]) -> None:
     settings = state.settings()
-    source = Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1])
+    source = Prior()
     drawn = []
     for name, run in runs.items():
         at = [run.scores(prior) for prior in (source, state.prior())]
@@ -75,7 +75,7 @@ def verdict(count: list[list[int]], runs: dict[str, Run], tolerance: float) -> s
     """How many pairs are good for every drawing, and whether the source's is."""
     flat = [n for row in count for n in row]
     share = sum(n == len(runs) for n in flat) / len(flat)
-    gap = worst_gap(runs, Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1]))
+    gap = worst_gap(runs, Prior())
     inside = "is one of them" if gap <= tolerance else "is not one of them"
     return (
         f"**{maps.percent(share)}** of all pairs are within {100 * tolerance:.0f} "

@@ -3,12 +3,13 @@
 import streamlit as st
 
 from occsim import Prior
-from occsim.pareto import recommend, rectangles_at, set_c
+from occsim.prior import SOURCE_PAIR
+from occsim.priors import recommend, rectangles_at, set_c
 from pages._ui import controls, palette, state
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps
 from pages._ui.priors.front_figures import Mark
-from pages._ui.runs import SOURCE_PAIR, Run
+from pages._ui.runs import Run
 
 
 @st.fragment
@@ -45,7 +46,7 @@ def _front_chart(run: Run) -> None:
 
 
 def _marks(run: Run) -> list[Mark]:
-    source = Prior(p_wall=SOURCE_PAIR[0], p_space=SOURCE_PAIR[1])
+    source = Prior()
     wanted = (
         ("uninformative", Prior.uninformative(), "square", palette.UNSEEN, None),
         ("source's", source, "star", "white", SOURCE_PAIR),

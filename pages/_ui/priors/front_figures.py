@@ -6,7 +6,8 @@ from typing import Any
 import plotly.graph_objects as go
 from plotly.colors import sample_colorscale
 
-from occsim.pareto import ParetoFront
+from occsim.prior import SOURCE_PAIR
+from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
 from pages._ui.priors.fronts import scores_at
@@ -17,7 +18,6 @@ from pages._ui.priors.surface_figures import (
     square_axes_of,
 )
 from pages._ui.priors.surfaces import HIGH, LOW
-from pages._ui.runs import SOURCE_PAIR
 
 FRONT_PX = 380
 WORDS = {

@@ -1,7 +1,7 @@
 """What the pages say of a front: where a map stands on it, how far from it."""
 
 from occsim import Scores
-from occsim.pareto import ParetoFront
+from occsim.priors import ParetoFront
 
 
 def scores_at(front: ParetoFront) -> list[tuple[float, float]]:

@@ -3,15 +3,15 @@
 import streamlit as st
 
 from occsim import Prior, coverage
-from occsim.formats.image_files import drawing_png, mask_png
-from occsim.formats.prior_map import (
+from occsim.io.images import drawing_png, mask_png
+from occsim.io.prior_map import (
     Plain,
     prior_csv,
     prior_json,
     prior_npy,
     prior_png,
 )
-from occsim.pareto import recommend, set_c
+from occsim.priors import recommend, set_c
 from pages._ui import compute, palette, state
 from pages._ui.choices import FrontAxes, Handover, Picture
 from pages._ui.controls import CHART_CONFIG

@@ -5,7 +5,7 @@ from typing import Any
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from occsim.pareto import ParetoFront
+from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
 from pages._ui.compute import SearchStep

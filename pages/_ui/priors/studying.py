@@ -6,7 +6,6 @@ import math
 import streamlit as st
 
 from occsim import Objective, OccsimError, load_sample, sample_names
-from occsim.published import SOURCE_CELLS_PX
 from occsim.study import (
     StudyCase,
     StudyDrawing,
@@ -18,6 +17,7 @@ from occsim.study import (
     pattern_text,
     sweeps_csv,
 )
+from occsim.study.published import SOURCE_CELLS_PX
 from pages._ui import compute, state
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures

@@ -5,10 +5,10 @@ import base64
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
+from occsim.prior import SOURCE_PAIR
 from pages._ui import palette
 from pages._ui.choices import Surface
 from pages._ui.priors.surfaces import HIGH, LOW, SurfaceView
-from pages._ui.runs import SOURCE_PAIR
 
 Pair = tuple[float, float]
 SURFACE_PX = 400

@@ -3,8 +3,7 @@
 import streamlit as st
 
 from occsim import Objective, maxima, sample_names
-from occsim.pareto import ParetoFront
-from occsim.sweep import Maxima
+from occsim.priors import Maxima, ParetoFront
 from pages._ui import compute, controls, state
 from pages._ui.choices import Surface
 from pages._ui.priors import maps, surface_figures, surfaces

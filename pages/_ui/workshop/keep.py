@@ -5,7 +5,7 @@ from typing import Any
 
 import streamlit as st
 
-from occsim.formats.project import Project, dump_project, load_project
+from occsim.io.project import Project, dump_project, load_project
 from pages._ui import state
 from pages._ui.settings import encode
 from pages._ui.uploads import MAX_UPLOAD_MB

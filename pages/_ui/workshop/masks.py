@@ -5,7 +5,7 @@ from typing import Any
 import streamlit as st
 
 from occsim.building import CorrectedMask, empty_mask
-from occsim.formats.image_files import class_png, mask_png
+from occsim.io.images import class_png, mask_png
 from occsim.walls import MaskError
 from pages._ui import compute, palette, state, uploads
 from pages._ui.workshop import drawn, words

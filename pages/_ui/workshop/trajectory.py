@@ -6,7 +6,7 @@ import streamlit as st
 
 from occsim import HeadingMode, Trajectory, TrajectoryFormat, dump_trajectory
 from occsim.building import random_trajectory, sketched_trajectory
-from occsim.formats.pose_table import pose_columns, trajectory_from_columns
+from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
 from occsim.strokes import pack_mask
 from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads

@@ -20,7 +20,10 @@ from occsim.evidence import EvidenceLog
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, f_beta_of, precision_of, recall_of
 from occsim.prior import PRIOR_SCALE
-from occsim.sweep.surface import PriorSurface, prior_surface
+from occsim.priors.surface import PriorSurface, prior_surface
+
+SOURCE_AXIS = tuple(round(0.1 * i, 1) for i in range(1, 11))
+"""Values of p_wall and p_space that the source swept: 0.1, 0.2, ..., 1."""
 
 
 class Objective(Enum):

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from occsim._types import BoolArray, ByteArray
-from occsim.drawing import Drawing
+from occsim.imaging import Drawing
 
 WALL_LEVEL, FREE_LEVEL = 0, 255
 """Brightness of wall and free pixels in the picture of a mask."""

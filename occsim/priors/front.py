@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray
 from occsim.errors import ParameterError
-from occsim.sweep import PriorSweep
+from occsim.priors.sweep import PriorSweep
 
 MIN_RECALL = 0.40
 """Threshold of set C: the source found it by experiment to keep the structure."""

@@ -8,9 +8,10 @@ import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from occsim._types import ByteArray
-from occsim.drawing.model import Drawing
-from occsim.drawing.pdf import load_pdf_page
-from occsim.drawing.source import (
+from occsim.errors import DrawingError
+from occsim.imaging.drawing import Drawing
+from occsim.imaging.pdf import load_pdf_page
+from occsim.imaging.source import (
     ALLOWED_FORMATS,
     MAX_PIXELS,
     check_size,
@@ -19,7 +20,6 @@ from occsim.drawing.source import (
     has_pdf_mark,
     read_drawing_file,
 )
-from occsim.errors import DrawingError
 
 IMAGE_FORMATS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "GIF", "PPM")
 

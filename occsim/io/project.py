@@ -22,17 +22,17 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+from occsim._files import read_source
 from occsim.building import Building, CorrectedMask
-from occsim.drawing import MAX_FILE_BYTES, Drawing, load_drawing
-from occsim.drawing.source import read_source
 from occsim.errors import OccsimError
-from occsim.formats.image_files import drawing_png, mask_png
-from occsim.strokes import decode_strokes, encode_strokes
-from occsim.trajectory_files import (
+from occsim.imaging import MAX_FILE_BYTES, Drawing, load_drawing
+from occsim.io.images import drawing_png, mask_png
+from occsim.io.trajectories import (
     TrajectoryFormat,
     dump_trajectory,
     load_trajectory,
 )
+from occsim.strokes import decode_strokes, encode_strokes
 from occsim.walls import WallParams
 from occsim.world import world_from_image
 

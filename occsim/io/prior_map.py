@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from occsim.drawing import Drawing
-from occsim.formats.image_files import png
-from occsim.formats.map_pictures import belief_picture
+from occsim.imaging import Drawing
+from occsim.io.images import png
+from occsim.io.map_pictures import belief_picture
 from occsim.prior import Prior, PriorMap
 
 FORMAT = "occsim prior map"

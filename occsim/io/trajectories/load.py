@@ -2,18 +2,18 @@
 
 from pathlib import Path
 
-from occsim.drawing.source import read_source
+from occsim._files import read_source
 from occsim.errors import TrajectoryError
-from occsim.trajectory import Trajectory
-from occsim.trajectory_files.arrays import NPY_MARK, parse_json, parse_npy
-from occsim.trajectory_files.mat import (
+from occsim.io.trajectories.arrays import NPY_MARK, parse_json, parse_npy
+from occsim.io.trajectories.mat import (
     HDF5_MARK,
     MATLAB_5_MARK,
     MATLAB_73_MARK,
     parse_mat,
 )
-from occsim.trajectory_files.table import MAX_FILE_BYTES, TrajectoryTable
-from occsim.trajectory_files.text import parse_text
+from occsim.io.trajectories.table import MAX_FILE_BYTES, TrajectoryTable
+from occsim.io.trajectories.text import parse_text
+from occsim.trajectory import Trajectory
 
 
 def load_trajectory(
@@ -53,7 +53,7 @@ def load_trajectory(
     -----
     A TUM file is read as it stands too, one px a unit and y down, as
     `dump_trajectory` writes it. For metres with y up use
-    :func:`occsim.formats.metric.poses_to_image`.
+    :func:`occsim.io.metric.poses_to_image`.
     """
     return read_trajectory_table(source, name=name).to_trajectory(degrees)
 

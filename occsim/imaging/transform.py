@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, ByteArray, FloatArray
-from occsim.drawing import MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX, Drawing
 from occsim.errors import DrawingError, ParameterError
+from occsim.imaging.drawing import Drawing
+from occsim.imaging.source import MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
 
 MAX_TILT_RAD = np.radians(12.0)
 """Largest tilt that `estimate_tilt` looks for; beyond it a page was meant to lie so."""

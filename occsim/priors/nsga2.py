@@ -1,6 +1,6 @@
 """NSGA-II over prior pairs, as the source searched for the Pareto front.
 
-An approximation of what :func:`occsim.pareto.exact_front` gives exactly.
+An approximation of what :func:`occsim.priors.exact_front` gives exactly.
 
 References
 ----------
@@ -20,8 +20,8 @@ import numpy as np
 
 from occsim._types import FloatArray, Progress
 from occsim.errors import ParameterError, require_choice
-from occsim.nsga2.objectives import AnyObjective, ObjectiveFunction, as_objective
-from occsim.pareto import ParetoFront, front_of, hypervolume
+from occsim.priors.front import ParetoFront, front_of, hypervolume
+from occsim.priors.objectives import AnyObjective, ObjectiveFunction, as_objective
 
 PARETO_FRACTION = 0.35
 """Default of the source's tool: share of the population on the best front."""
@@ -200,7 +200,7 @@ def _algorithm(
     from pymoo.algorithms.moo.nsga2 import NSGA2
     from pymoo.core.problem import Problem
 
-    from occsim.nsga2.controlled import ControlledElitism
+    from occsim.priors.elitism import ControlledElitism
 
     survival = {} if ratio is None else {"survival": ControlledElitism(ratio)}
     first = _first_population(pop_size, seed, bounds)

@@ -12,13 +12,8 @@ from occsim.evidence import EvidenceLog
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, precision_of, recall_of
 from occsim.prior import PRIOR_SCALE
-from occsim.sweep import (
-    Objective,
-    PriorSurface,
-    PriorSweep,
-    interpolate,
-    prior_surface,
-)
+from occsim.priors.surface import PriorSurface, prior_surface
+from occsim.priors.sweep import Objective, PriorSweep, interpolate
 
 ObjectiveFunction = Callable[[FloatArray], FloatArray]
 """From pairs (N, 2) of p_wall and p_space to precision and recall (N, 2)."""

@@ -43,10 +43,10 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
-from occsim.drawing import Drawing
 from occsim.errors import ParameterError
 from occsim.evidence import EvidenceLog
 from occsim.grid import Grid
+from occsim.imaging import Drawing
 from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 

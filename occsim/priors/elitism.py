@@ -15,7 +15,7 @@ from pymoo.core.survival import Survival
 from pymoo.operators.survival.rank_and_crowding.metrics import get_crowding_function
 from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 
-from occsim.nsga2.shares import geometric_shares
+from occsim.priors.shares import geometric_shares
 
 
 class ControlledElitism(Survival):  # type: ignore[misc]  # pymoo is untyped

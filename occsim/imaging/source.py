@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from occsim.errors import DrawingError, OccsimError
+from occsim._files import read_source
+from occsim.errors import DrawingError
 
 MAX_PIXELS = 40_000_000
 """Largest drawing, px: 40 megapixels, an A3 sheet scanned at 380 dots an inch."""
@@ -36,61 +37,6 @@ def read_drawing_file(source: bytes | str | Path) -> tuple[bytes, str]:
         max_bytes=MAX_FILE_BYTES,
         error=DrawingError,
     )
-
-
-def read_source(
-    source: bytes | str | Path,
-    *,
-    what: str,
-    needed: str,
-    max_bytes: int,
-    error: type[OccsimError],
-) -> tuple[bytes, str]:
-    """Return a file's content and its name, once its size is known to be sensible.
-
-    Parameters
-    ----------
-    source : bytes, str or Path
-        The file's content, or where it is.
-    what : str
-        The name that content without a file goes by.
-    needed : str
-        What the file should be, for the messages.
-    max_bytes : int
-        Largest size allowed, bytes; a larger file is not read.
-    error : type of OccsimError
-        What to raise.
-
-    Returns
-    -------
-    data : bytes
-    name : str
-
-    Raises
-    ------
-    OccsimError
-        Of the type given, where the file is missing, empty or too large.
-    """
-    if isinstance(source, bytes | bytearray | memoryview):
-        data, name, size = bytes(source), what, len(source)
-    else:
-        path = Path(source)
-        name = path.name
-        try:
-            size = path.stat().st_size
-            data = path.read_bytes() if size <= max_bytes else b""
-        except (OSError, ValueError) as trouble:  # ValueError: NUL in the path
-            reason = getattr(trouble, "strerror", None) or "no such file"
-            message = f"{name} cannot be opened ({reason}); {needed} is needed"
-            raise error(message) from None
-    if size > max_bytes:
-        raise error(
-            f"{name} has {size / 1e6:.1f} MB; at most {max_bytes / 1e6:.0f} MB "
-            "are allowed"
-        )
-    if size == 0:
-        raise error(f"{name} is empty (0 bytes); {needed} is needed")
-    return data, name
 
 
 def has_pdf_mark(data: bytes) -> bool:

@@ -5,10 +5,10 @@ decoded, only the formats of a short list are tried, and every failure becomes a
 `DrawingError` of one sentence.
 """
 
-from occsim.drawing.image import load_drawing
-from occsim.drawing.model import Drawing
-from occsim.drawing.pdf import is_pdf, load_pdf_page, pdf_page_count
-from occsim.drawing.source import MAX_FILE_BYTES, MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
+from occsim.imaging.drawing import Drawing
+from occsim.imaging.image import load_drawing
+from occsim.imaging.pdf import is_pdf, load_pdf_page, pdf_page_count
+from occsim.imaging.source import MAX_FILE_BYTES, MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
 
 __all__ = [
     "MAX_FILE_BYTES",

@@ -19,9 +19,9 @@ from occsim.evidence import EvidenceLog
 from occsim.logodds import p_free_from_log_odds
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, precision_of, recall_of
-from occsim.pareto.front import ParetoFront
 from occsim.prior import PRIOR_SCALE
-from occsim.sweep import PriorSurface, StepCount, prior_levels, prior_surface
+from occsim.priors.front import ParetoFront
+from occsim.priors.surface import PriorSurface, StepCount, prior_levels, prior_surface
 
 MIN_WIDTH = 1e-12
 """Narrowest interval of l_0, nats, taken for real.

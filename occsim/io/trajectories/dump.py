@@ -9,8 +9,8 @@ import numpy as np
 
 from occsim._types import FloatArray
 from occsim.errors import ParameterError
+from occsim.io.trajectories.text import TUM_COLUMNS
 from occsim.trajectory import Trajectory
-from occsim.trajectory_files.text import TUM_COLUMNS
 
 
 class TrajectoryFormat(Enum):

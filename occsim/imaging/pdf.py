@@ -6,15 +6,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from occsim.drawing.model import Drawing
-from occsim.drawing.source import (
+from occsim.errors import DrawingError
+from occsim.imaging.drawing import Drawing
+from occsim.imaging.source import (
     check_size,
     decoding,
     guess,
     has_pdf_mark,
     read_drawing_file,
 )
-from occsim.errors import DrawingError
 
 DEFAULT_PDF_SIDE_PX = 2000
 """Longer side of a rendered PDF page, px: thin walls stay two or more px wide."""

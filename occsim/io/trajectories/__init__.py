@@ -1,13 +1,13 @@
 """Trajectory files: CSV and plain text, NPY, MAT, JSON and TUM, each way.
 
 Positions in a file are px in the image frame, headings degrees or radians as the file
-says. Metric frames with y up are for :mod:`occsim.formats.metric`. Files are hostile
+says. Metric frames with y up are for :mod:`occsim.io.metric`. Files are hostile
 until checked, and every failure is a `TrajectoryError` of one sentence.
 """
 
-from occsim.trajectory_files.dump import TrajectoryFormat, dump_trajectory
-from occsim.trajectory_files.load import load_trajectory, read_trajectory_table
-from occsim.trajectory_files.table import (
+from occsim.io.trajectories.dump import TrajectoryFormat, dump_trajectory
+from occsim.io.trajectories.load import load_trajectory, read_trajectory_table
+from occsim.io.trajectories.table import (
     MAX_FILE_BYTES,
     MAX_POSES,
     TrajectoryTable,

@@ -13,7 +13,7 @@ References
 
 from typing import NamedTuple
 
-from occsim.sweep import Objective
+from occsim.priors.sweep import Objective
 
 
 class PublishedMaximum(NamedTuple):
@@ -27,12 +27,6 @@ class PublishedMaximum(NamedTuple):
 
 SOURCE_CELLS_PX = (3, 5, 10)
 """Cell sizes of the source's tables, px."""
-
-SOURCE_AXIS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-"""Values of p_wall and p_space that the source swept."""
-
-SOURCE_PAIR = (0.2, 0.9)
-"""(p_wall, p_space) that the source chose in the end, Fig. 4.6e."""
 
 # Table 4.1. The last 0.5 of drawing c at 10 px is printed "05".
 _PRECISION = {

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 
 from occsim.errors import TrajectoryError
-from occsim.trajectory_files.table import (
+from occsim.io.trajectories.table import (
     TrajectoryTable,
     check_array,
     check_count,
     find_columns,
     table_from,
 )
-from occsim.trajectory_files.text import decode
+from occsim.io.trajectories.text import decode
 
 NPY_MARK = b"\x93NUMPY"
 

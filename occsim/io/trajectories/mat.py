@@ -15,7 +15,7 @@ import numpy as np
 
 from occsim._types import FloatArray
 from occsim.errors import TrajectoryError
-from occsim.trajectory_files.table import (
+from occsim.io.trajectories.table import (
     MAX_POSES,
     TrajectoryTable,
     check_count,
