@@ -4,7 +4,7 @@ import streamlit as st
 
 from occsim import load_sample
 from pages._ui import compute, shell
-from pages._ui.player import PlayerDocument, map_player
+from pages._ui.components.player import PlayerDocument, map_player
 from pages._ui.settings import Settings
 
 HOME_SAMPLE = "a"

@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages._ui import compute, controls, shell, state, uploads
-from pages._ui.player import map_player
+from pages._ui.components.player import map_player
 
 EQUATIONS = r"""
 A reading says of a cell (Eq. 4.22), with $q$ the share of its pixels in view that lie

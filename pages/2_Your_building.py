@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages._ui import controls, shell, state, uploads
-from pages._ui.workshop import drawing, keep, masks, scale, trajectory, walls
+from pages._ui.your_building import drawing, keep, masks, scale, trajectory, walls
 
 SECTIONS = {
     "1 Drawing": drawing.show,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from occsim.strokes import Stroke, StrokeKind, encode_strokes, pack_mask
-from pages._ui.board import (
+from pages._ui.components.board import (
     FOLD_ABOVE,
     KEEP,
     MAX_PATH_POINTS,

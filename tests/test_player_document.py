@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from occsim import Region, UpdateRule
 from occsim.logodds import DECISION_EPS
-from pages._ui.player import (
+from pages._ui.components.player import (
     SPEEDS,
     PlayerDocument,
     decode_commit,

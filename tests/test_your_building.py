@@ -20,7 +20,7 @@ from occsim import (
 from occsim.io.project import Project, dump_project
 from occsim.strokes import Stroke, StrokeKind, encode_strokes
 from pages._ui.state import OPENING
-from pages._ui.workshop import poses
+from pages._ui.your_building import poses
 from tests.test_pages import launch, png, rooms, upload
 
 PAGE = "pages/2_Your_building.py"

@@ -13,7 +13,7 @@ import numpy as np
 import streamlit as st
 
 from occsim.strokes import encode_strokes, pack_mask
-from pages._ui.board import BoardDocument, BoardMode, drawing_board
+from pages._ui.components.board import BoardDocument, BoardMode, drawing_board
 
 HEIGHT_PX, WIDTH_PX = 240, 360
 

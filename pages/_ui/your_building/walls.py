@@ -8,8 +8,8 @@ import streamlit as st
 from occsim.building import CorrectedMask
 from occsim.walls import STAGE_NOTES, Slider, WallParams
 from pages._ui import compute, state
-from pages._ui.workshop import masks
-from pages._ui.workshop import state as kept
+from pages._ui.state import boards as kept
+from pages._ui.your_building import masks
 
 COLUMNS = 5
 """Two rows of pictures, large enough to see a door leaf vanish."""

@@ -5,8 +5,13 @@ from collections.abc import Callable
 from occsim.building import CorrectedMask
 from occsim.strokes import pack_mask
 from pages._ui import compute, state
-from pages._ui.board import BoardDocument, BoardMode, BoardPoint, drawing_board
-from pages._ui.workshop import state as kept
+from pages._ui.components.board import (
+    BoardDocument,
+    BoardMode,
+    BoardPoint,
+    drawing_board,
+)
+from pages._ui.state import boards as kept
 
 HEIGHT_PX = 520
 """The board and what stands above it fit in 720 px."""

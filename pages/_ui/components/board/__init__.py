@@ -26,7 +26,7 @@ from occsim.strokes import (
     unpack_mask,
 )
 from pages._ui import palette
-from pages._ui.component import component, keep_state
+from pages._ui.components import component, keep_state
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (

@@ -8,8 +8,9 @@ from typing import Any
 import streamlit as st
 
 from occsim import Trajectory
-from pages._ui.board import BoardDocument, BoardMode, decode_commit
-from pages._ui.state import building, edit, edit_building
+from pages._ui.components.board import BoardDocument, BoardMode, decode_commit
+from pages._ui.state.chosen import building
+from pages._ui.state.edits import edit, edit_building
 
 Columns = dict[str, list[float | None]]
 Source = tuple[object, ...]

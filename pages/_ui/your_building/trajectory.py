@@ -10,10 +10,10 @@ from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_colu
 from occsim.strokes import pack_mask
 from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads
-from pages._ui.board import BoardDocument, BoardMode, BoardPoint
-from pages._ui.workshop import drawn, words
-from pages._ui.workshop import state as kept
-from pages._ui.workshop.poses import poses_figure
+from pages._ui.components.board import BoardDocument, BoardMode, BoardPoint
+from pages._ui.state import boards as kept
+from pages._ui.your_building import drawn, words
+from pages._ui.your_building.poses import poses_figure
 
 KEY = "board_path"
 WAYS = ("Sketch", "Plan", "Table", "Files")

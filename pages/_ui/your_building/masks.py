@@ -8,7 +8,7 @@ from occsim.building import CorrectedMask, empty_mask
 from occsim.io.images import class_png, mask_png
 from occsim.walls import MaskError
 from pages._ui import compute, palette, state, uploads
-from pages._ui.workshop import drawn, words
+from pages._ui.your_building import drawn, words
 
 PICTURE_PX = drawn.HEIGHT_PX - 80
 """Height of a picture with its caption in a frame as high as the board."""

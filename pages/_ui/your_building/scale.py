@@ -6,9 +6,9 @@ import streamlit as st
 
 from occsim.building import DOOR_WIDTH_M
 from pages._ui import state
-from pages._ui.board import BoardMode, BoardPoint
+from pages._ui.components.board import BoardMode, BoardPoint
 from pages._ui.settings import TABLE
-from pages._ui.workshop import drawn, words
+from pages._ui.your_building import drawn, words
 
 KEY = "board_door"
 WIDTH = "door_width_m"

@@ -7,8 +7,8 @@ import streamlit as st
 
 from occsim.building import cropped, straightened, turned
 from pages._ui import compute, state, uploads
-from pages._ui.board import BoardMode, BoardPoint
-from pages._ui.workshop import drawn, words
+from pages._ui.components.board import BoardMode, BoardPoint
+from pages._ui.your_building import drawn, words
 
 KEY = "board_crop"
 LEAST_TILT_RAD = math.radians(0.15)

@@ -1,0 +1,33 @@
+"""The chosen prior pair, and the search for the front that was run last."""
+
+import streamlit as st
+
+from occsim import Prior
+from pages._ui import compute
+from pages._ui.state.chosen import change, settings
+
+
+def pair() -> tuple[float, float]:
+    """The chosen prior pair: p_wall, p_space."""
+    return settings().p_wall, settings().p_space
+
+
+def choose_pair(p_wall: float, p_space: float) -> None:
+    """Choose a prior pair; every page shows its map."""
+    change(p_wall=p_wall, p_space=p_space, uninformative=False)
+
+
+def prior() -> Prior:
+    """The prior of the chosen pair, whether or not the player leaves it out."""
+    return Prior(p_wall=settings().p_wall, p_space=settings().p_space)
+
+
+def keep_search(key: object, steps: list[compute.SearchStep]) -> None:
+    """Keep the generations of a search so far."""
+    st.session_state.search = key, steps
+
+
+def kept_search(key: object) -> list[compute.SearchStep]:
+    """The generations kept of this search; none of another."""
+    kept, steps = st.session_state.get("search", (None, []))
+    return steps if kept == key else []

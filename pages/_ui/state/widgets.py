@@ -1,0 +1,99 @@
+"""Widgets tied to what the session keeps."""
+
+from collections.abc import Callable
+from typing import Any
+
+import streamlit as st
+
+from pages._ui.state.chosen import change, choice, choose, settings
+from pages._ui.state.edits import edit
+from pages._ui.state.pairs import choose_pair
+
+
+def bind(name: str) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a widget to a setting.
+
+    The widget's own value is set from the setting before each run, so that leaving the
+    page, a reset and a share link all show in it.
+    """
+    key = f"control_{name}"
+    st.session_state[key] = getattr(settings(), name)
+    return {"key": key, "on_change": _take, "args": (name, key)}
+
+
+def _take(name: str, key: str) -> None:
+    change(**{name: st.session_state[key]})
+
+
+def bind_choice() -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a select box to the chosen drawing."""
+    key = "control_choice"
+    st.session_state[key] = choice()
+    return {
+        "key": key,
+        "on_change": lambda: choose(st.session_state[key]),
+    }
+
+
+def value(key: str) -> Any:
+    """The value of a widget, for use in its callback."""
+    return st.session_state.get(key)
+
+
+def bind_index(key: str, index: int, choose: Callable[[int], None]) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` of a widget that steps through a list."""
+    st.session_state[key] = index
+    return {"key": key, "on_change": lambda: choose(st.session_state[key])}
+
+
+def bind_chart(key: str, *, of_pairs: bool = False) -> dict[str, Any]:
+    """Return what makes a click in a chart choose the prior pair of a point.
+
+    The pair is the point's customdata or, in a chart `of_pairs`, its place: p_wall
+    over p_space.
+    """
+    return {
+        "key": key,
+        "on_select": lambda: _take_click(key, of_pairs),
+        "selection_mode": "points",
+    }
+
+
+def _take_click(key: str, of_pairs: bool) -> None:
+    clicked = st.session_state.setdefault("clicked", {})
+    for point in value(key)["selection"]["points"]:
+        place = (point["y"], point["x"]) if of_pairs else None
+        clicked[key] = point.get("customdata") or place
+    # A second click on a point takes its selection away: it is still the one meant.
+    if clicked.get(key):
+        p_wall, p_space = clicked[key]
+        choose_pair(p_wall, p_space)
+
+
+def view(name: str, default: Any) -> Any:
+    """Where the student is on a page: the last value of a widget of `bind_view`."""
+    return st.session_state.get("views", {}).get(name, default)
+
+
+def set_view(name: str, value: Any) -> None:
+    """Bring the student to another place of a page."""
+    st.session_state.setdefault("views", {})[name] = value
+
+
+def bind_view(
+    name: str, default: Any, then: Callable[[], None] | None = None
+) -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` of a widget whose value outlives its page.
+
+    For tools and places on a page, which are no settings of the map. What comes `then`
+    is attempted as an edit of the building.
+    """
+    key = f"view_{name}"
+    st.session_state[key] = view(name, default)
+    return {"key": key, "on_change": _take_view, "args": (name, key, then)}
+
+
+def _take_view(name: str, key: str, then: Callable[[], None] | None) -> None:
+    set_view(name, st.session_state[key])
+    if then is not None:
+        edit(then, tag=key)
