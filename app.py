@@ -2,10 +2,9 @@
 
 import streamlit as st
 
-from occsim import load_sample
+from occsim import MapSettings, load_sample
 from pages._ui import compute, shell
 from pages._ui.components.player import PlayerDocument, map_player
-from pages._ui.settings import Settings
 
 HOME_SAMPLE = "a"
 HOME_REPLAY = PlayerDocument(rev=1, compact=True)
@@ -30,9 +29,8 @@ with links:
         st.caption(lesson.purpose)
 with picture:
     building = compute.sample(HOME_SAMPLE)
-    sensor = load_sample(HOME_SAMPLE).sensor
     map_player(
-        compute.replay(building, sensor, Settings().cell_px),
+        compute.replay(building, MapSettings(sensor=load_sample(HOME_SAMPLE).sensor)),
         HOME_REPLAY,
         key="home_player",
     )

@@ -50,6 +50,7 @@ from occsim.priors import (
     surface_front,
     sweep_priors,
 )
+from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
@@ -68,6 +69,8 @@ __all__ = [
     "Generation",
     "Grid",
     "HeadingMode",
+    "MapSettings",
+    "MappingRun",
     "Objective",
     "OccsimError",
     "OccupancyMap",

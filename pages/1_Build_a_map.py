@@ -54,13 +54,7 @@ elif building.truth is None:
         "world, so the prior is right everywhere."
     )
 with shell.explained():
-    replay = compute.replay(
-        building,
-        settings.sensor,
-        settings.cell_px,
-        settings.wall_share,
-        settings.truth_share,
-    )
+    replay = compute.replay(building, settings.mapping)
     state.take_from_player(
         map_player(replay, state.player_document(), key=state.PLAYER_KEY)
     )

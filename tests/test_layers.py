@@ -29,6 +29,7 @@ ORDER = [
     {"priors"},
     {"samples"},
     {"building"},
+    {"run"},
     {"io"},
     {"study"},
     {"cli"},

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from occsim import Region, UpdateRule
 from occsim.logodds import DECISION_EPS
+from pages._ui.choices import Overlay
 from pages._ui.components.player import (
     SPEEDS,
     PlayerDocument,
@@ -16,7 +17,7 @@ from pages._ui.components.player import (
     encode_document,
     player_data,
 )
-from pages._ui.settings import TABLE, Overlay
+from pages._ui.settings import TABLE
 
 IMPOSED = PlayerDocument(rev=4, step=12)
 

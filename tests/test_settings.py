@@ -9,25 +9,18 @@ from hypothesis import strategies as st
 from occsim import BehindHit, Region, UpdateRule
 from occsim.priors import Elitism
 from pages._ui.choices import (
+    CHOICES,
     Drawings,
     Exploring,
     Fineness,
     FrontAxes,
     Handover,
     Objectives,
+    Overlay,
     Picture,
     Surface,
 )
-from pages._ui.settings import (
-    CHOICES,
-    TABLE,
-    Overlay,
-    Settings,
-    decode,
-    encode,
-    unread,
-    with_changes,
-)
+from pages._ui.settings import TABLE, Settings, decode, encode, unread, with_changes
 
 
 def bounded(name):

@@ -11,7 +11,6 @@ import numpy as np
 from occsim._types import Progress
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.errors import ParameterError
-from occsim.evidence import collect_evidence
 from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
@@ -23,15 +22,12 @@ from occsim.priors import (
     ParetoFront,
     PriorSweep,
     maxima,
-    prior_surface,
     recommend,
-    surface_front,
-    sweep_surface,
 )
+from occsim.run import MappingRun, MapSettings
 from occsim.samples import load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.study.published import SOURCE_CELLS_PX
-from occsim.world import truth_cells, wall_cells
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -253,23 +249,22 @@ def run_case(
     """
     settings = settings or StudySettings()
     building = drawing.building
-    grid = building.world.grid(cell_px)
     sensor = replace(drawing.sensor, behind_hit=settings.behind_hit)
-    evidence = collect_evidence(
-        building.world, building.valid_trajectory(), sensor, grid
+    run = MappingRun(
+        replace(building, trajectory=building.valid_trajectory()),
+        MapSettings(
+            cell_px=cell_px,
+            sensor=sensor,
+            wall_share=settings.wall_share,
+            truth_share=settings.truth_share,
+        ),
     )
-    surface = prior_surface(
-        evidence,
-        wall_cells(building.wall_mask, grid, settings.wall_share),
-        truth_cells(building.world, grid, settings.truth_share),
-        settings.rule,
-        settings.region,
-    )
+    rule, region = settings.rule, settings.region
     return StudyCase(
         name=drawing.name,
         cell_px=cell_px,
-        sweep=sweep_surface(surface, SOURCE_AXIS, SOURCE_AXIS),
-        front=surface_front(surface, settings.low, settings.high),
+        sweep=run.sweep(rule=rule, region=region),
+        front=run.front(rule, region, settings.low, settings.high),
     )
 
 

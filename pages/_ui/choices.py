@@ -1,6 +1,19 @@
-"""Choices of the pages on sweeps and fronts; the settings declare their words."""
+"""What can be chosen on the pages, and the words for every choice."""
 
+from collections.abc import Mapping
 from enum import Enum
+
+from occsim import BehindHit, Region, UpdateRule
+from occsim.priors import Elitism
+
+
+class Overlay(Enum):
+    """What the player draws over the map."""
+
+    NONE = "none"
+    WALL_MASK = "wall_mask"
+    TRUTH = "truth"
+    ERRORS = "errors"
 
 
 class Surface(Enum):
@@ -62,3 +75,41 @@ class Handover(Enum):
 
     RECOMMENDED = "recommended"
     CHOSEN = "chosen"
+
+
+CHOICES: Mapping[Enum, str] = {
+    BehindHit.OCCUPIED: "Occupied (Eq. 4.22 as printed)",
+    BehindHit.UNSEEN: "Unseen (the field's usual rule)",
+    UpdateRule.PRIOR_ONCE: "Count the drawing once",
+    UpdateRule.SUBTRACT_PRIOR: "Take it off at every reading (the source, as we "
+    "reconstruct it)",
+    Region.EXPLORED: "Explored cells",
+    Region.ALL: "All cells",
+    Overlay.NONE: "None",
+    Overlay.WALL_MASK: "Wall mask",
+    Overlay.TRUTH: "Ground truth",
+    Overlay.ERRORS: "Errors",
+    Surface.SOURCE: "Source's 10 × 10",
+    Surface.EXACT: "Exact",
+    Surface.DIFFERENCE: "Difference",
+    Fineness.TENTH: "0.1",
+    Fineness.TWENTIETH: "0.05",
+    Fineness.FIFTIETH: "0.02",
+    Fineness.HUNDREDTH: "0.01",
+    Drawings.THIS: "This drawing",
+    Drawings.ALL: "All five",
+    Picture.BELIEF: "Probability of free",
+    Picture.ERRORS: "Errors",
+    Picture.CHANGE: "Change",
+    Exploring.ONE: "One front",
+    Exploring.SEARCH: "Search by NSGA-II",
+    Exploring.ALL: "All drawings",
+    Handover.RECOMMENDED: "Recommended",
+    Handover.CHOSEN: "Chosen by hand",
+    FrontAxes.SCORES: "precision, recall",
+    FrontAxes.INVERSE: "1/precision, 1/recall",
+    Objectives.INTERPOLATED: "the source's table, interpolated",
+    Objectives.EXACT: "each pair's own map",
+    Elitism.FULL: "NSGA-II",
+    Elitism.CONTROLLED: "NSGA-II, controlled elitism",
+}

@@ -10,19 +10,17 @@ import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import streamlit as st
 
 from occsim import (
-    EvidenceLog,
-    Grid,
+    MappingRun,
+    MapSettings,
     ParameterError,
     Prior,
     Sensor,
-    collect_evidence,
     load_sample,
-    truth_cells,
 )
 from occsim._types import FloatArray
 from occsim.building import Building, building_from_drawing, building_from_sample
@@ -36,11 +34,8 @@ from occsim.priors import (
     hypervolume,
     interpolated_objective,
     nsga2_generations,
-    prior_surface,
     reference_point,
-    surface_front,
     surface_objective,
-    sweep_surface,
 )
 from occsim.sensor import most_cells_in_view
 from occsim.study import StudyCase, StudyDrawing, StudySettings, run_case
@@ -53,10 +48,9 @@ from occsim.walls import (
     compare_masks,
     detect_walls,
 )
-from occsim.world import wall_cells
 from pages._ui.choices import Objectives
 from pages._ui.runs import Run
-from pages._ui.settings import Settings, apart_from_prior, with_changes
+from pages._ui.settings import Settings, with_changes
 
 # A class of thirty students on two cores: without this each simulation would be slowed
 # by all others, and everyone would wait for the sum.
@@ -87,13 +81,17 @@ def own_building(drawing: Drawing, sensor: Sensor, working_px: int) -> Building:
         return building_from_drawing(drawing, sensor, working_px=working_px)
 
 
-def grid_of(building: Building, cell_px: int) -> Grid:
-    """The grid of a cell size over a building."""
-    return building.world.grid(cell_px)
+def anonymous(building: Building) -> Building:
+    """The same building without the words of the student who brought it.
+
+    Whatever is cached is shared by all sessions: nothing that a user typed belongs in.
+    """
+    drawing = replace(building.drawing, name="drawing")
+    return replace(building, drawing=drawing, title="", about="")
 
 
-def evidence(building: Building, sensor: Sensor, cell_px: int) -> EvidenceLog:
-    """What all readings say, whatever the prior.
+def mapped(building: Building, settings: MapSettings) -> MappingRun:
+    """A building mapped under some settings; shared by all who map the same.
 
     Raises
     ------
@@ -102,57 +100,43 @@ def evidence(building: Building, sensor: Sensor, cell_px: int) -> EvidenceLog:
         than a minute of waiting first.
     """
     n_readings = len(building.trajectory)
-    grid = grid_of(building, cell_px)
-    most = n_readings * most_cells_in_view(sensor, grid)
+    grid = building.world.grid(settings.cell_px)
+    most = n_readings * most_cells_in_view(settings.sensor, grid)
     if most > MAX_ENTRIES:
         raise ParameterError(
             f"{n_readings} readings with this range and field of view can make up to "
-            f"{most:,} updates of cells of {cell_px} px; at most {MAX_ENTRIES:,} are "
-            "simulated here: choose larger cells, a shorter range, a narrower field "
-            "of view or fewer poses"
+            f"{most:,} updates of cells of {settings.cell_px} px; at most "
+            f"{MAX_ENTRIES:,} are simulated here: choose larger cells, a shorter "
+            "range, a narrower field of view or fewer poses"
         )
-    return _evidence(building.digest, sensor, cell_px, building)
+    return _mapped(building.digest, settings, anonymous(building))
 
 
 @st.cache_resource(max_entries=32, show_spinner="Simulating the readings")
-def _evidence(
-    digest: str, sensor: Sensor, cell_px: int, _building: Building
-) -> EvidenceLog:
+def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingRun:
+    run = MappingRun(_building, settings)
     with core():
-        return collect_evidence(
-            _building.world, _building.trajectory, sensor, grid_of(_building, cell_px)
-        )
+        # Asked for now, while a core is held: whoever shares the run finds it done.
+        _ = run.evidence
+    return run
 
 
-def replay(
-    building: Building,
-    sensor: Sensor,
-    cell_px: int,
-    wall_share: float = 0.0,
-    truth_share: float = 0.0,
-) -> bytes:
+def replay(building: Building, settings: MapSettings) -> bytes:
     """The bytes that the map player replays."""
-    shares = (wall_share, truth_share)
-    return _replay(building.digest, sensor, cell_px, shares, building)
+    return _replay(building.digest, settings, building)
 
 
 @st.cache_data(max_entries=32, show_spinner="Simulating the readings")
-def _replay(
-    digest: str,
-    sensor: Sensor,
-    cell_px: int,
-    shares: tuple[float, float],
-    _building: Building,
-) -> bytes:
-    log = evidence(_building, sensor, cell_px)
+def _replay(digest: str, settings: MapSettings, _building: Building) -> bytes:
+    run = mapped(_building, settings)
     with core():
         return pack_replay(
-            log,
-            is_wall=wall_cells(_building.wall_mask, log.grid, shares[0]),
-            truth=truth_cells(_building.world, log.grid, shares[1]),
-            trajectory=_building.trajectory,
-            sensor=sensor,
-            drawing=_building.drawing,
+            run.evidence,
+            is_wall=run.wall_cells,
+            truth=run.truth_cells,
+            trajectory=run.building.trajectory,
+            sensor=settings.sensor,
+            drawing=run.building.drawing,
         )
 
 
@@ -160,19 +144,11 @@ def _replay(
 
 
 def run(building: Building, settings: Settings) -> Run:
-    """A building mapped under some settings, ready for any prior."""
-    return _run(building.digest, apart_from_prior(settings), building)
-
-
-@st.cache_resource(max_entries=64, show_spinner=False)
-def _run(digest: str, settings: Settings, _building: Building) -> Run:
-    log = evidence(_building, settings.sensor, settings.cell_px)
+    """A building mapped under some settings, its surface and front computed."""
+    made = Run(building, settings, mapped(building, settings.mapping))
     with core():
-        is_wall = wall_cells(_building.wall_mask, log.grid, settings.wall_share)
-        truth = truth_cells(_building.world, log.grid, settings.truth_share)
-        surface = prior_surface(log, is_wall, truth, settings.rule, settings.region)
-        front = surface_front(surface)
-    return Run(_building, settings, log, is_wall, truth, surface, front)
+        _ = made.front
+    return made
 
 
 def reference_run(name: str, settings: Settings) -> Run:
@@ -184,7 +160,7 @@ def reference_run(name: str, settings: Settings) -> Run:
 def sweep(of: Run, values: Sequence[float]) -> PriorSweep:
     """The exact scores of every pair of some values."""
     with core():
-        return sweep_surface(of.surface, values, values)
+        return of.sweep(values)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -206,7 +182,7 @@ def search_key(of: Run, settings: Settings) -> tuple[object, ...]:
     """What a search depends on: with equal keys it takes the same course."""
     names = ("objectives", "elitism", "pop_size", "n_gen", "seed")
     own = tuple(getattr(settings, name) for name in names)
-    return of.building.digest, of.settings, own
+    return of.building.digest, of.settings.mapping, settings.rule, settings.region, own
 
 
 def search(of: Run, settings: Settings) -> Iterator[SearchStep]:

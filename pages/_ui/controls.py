@@ -6,7 +6,8 @@ from typing import Literal
 import streamlit as st
 
 from pages._ui import state
-from pages._ui.settings import CHOICES, TABLE
+from pages._ui.choices import CHOICES
+from pages._ui.settings import TABLE
 
 CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
 """What every chart is drawn with: a click chooses, and the wheel scrolls the page."""

@@ -1,18 +1,18 @@
 """A run: one building, mapped once, ready to be asked about any prior pair."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from occsim import (
     EvidenceLog,
+    MappingRun,
     OccupancyMap,
     Prior,
     PriorMap,
     PriorSurface,
+    PriorSweep,
     Scores,
-    fuse,
-    score,
 )
-from occsim._types import BoolArray
 from occsim.building import Building
 from occsim.io.images import png
 from occsim.io.map_pictures import (
@@ -21,7 +21,6 @@ from occsim.io.map_pictures import (
     change_picture,
     outcome_picture,
 )
-from occsim.prior import prior_from_cells
 from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import Picture
@@ -41,38 +40,56 @@ CHANGE_COLOURS = (palette.EVIDENCE_WALL, palette.EVIDENCE_ZERO, palette.EVIDENCE
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """The evidence of a building under some settings, and what follows from it.
+    """A student's building with its rule and region, over readings shared by all.
 
-    ``settings`` are those without a prior; every prior is an argument here.
+    ``settings`` may hold a prior; it is not used: every prior is an argument here.
     """
 
     building: Building
     settings: Settings
-    evidence: EvidenceLog
-    is_wall: BoolArray
-    truth: BoolArray
-    surface: PriorSurface
-    front: ParetoFront
+    mapped: MappingRun
+
+    @property
+    def evidence(self) -> EvidenceLog:
+        """What the readings say, whatever the prior."""
+        return self.mapped.evidence
+
+    @property
+    def surface(self) -> PriorSurface:
+        """True and false positives of every prior pair."""
+        return self.mapped.surface(self.settings.rule, self.settings.region)
+
+    @property
+    def front(self) -> ParetoFront:
+        """The exact Pareto front."""
+        return self.mapped.front(self.settings.rule, self.settings.region)
+
+    def sweep(self, values: Sequence[float]) -> PriorSweep:
+        """The scores of every pair of some values."""
+        settings = self.settings
+        return self.mapped.sweep(values, values, settings.rule, settings.region)
 
     def prior_map(self, prior: Prior) -> PriorMap:
         """What the map starts from."""
-        return prior_from_cells(self.is_wall, self.evidence.grid, prior)
+        return self.mapped.prior_map(prior)
 
     def map(self, prior: Prior) -> OccupancyMap:
         """The final map of a prior."""
-        return fuse(self.evidence, self.prior_map(prior), self.settings.rule)
+        return self.mapped.map(prior, self.settings.rule)
 
     def scores(self, prior: Prior) -> Scores:
         """How good that map is."""
-        return score(self.map(prior), self.truth, self.settings.region)
+        return self.mapped.scores(prior, self.settings.rule, self.settings.region)
 
     def picture(self, prior: Prior, kind: Picture) -> bytes:
         """A PNG of that map."""
-        final, grid = self.map(prior), self.evidence.grid
+        final, grid = self.map(prior), self.mapped.grid
         if kind is Picture.ERRORS:
             region = self.settings.region
             return png(
-                outcome_picture(final, self.truth, OUTCOME_COLOURS, region, ZOOM)
+                outcome_picture(
+                    final, self.mapped.truth_cells, OUTCOME_COLOURS, region, ZOOM
+                )
             )
         if kind is Picture.CHANGE:
             change = final.p_free - self.map(Prior.uninformative()).p_free
@@ -87,7 +104,7 @@ class Run:
                 "No reading saw any cell, so the map is the prior and nothing else: "
                 "check the trajectory and the range of the sensor."
             )
-        if self.building.truth is None and not self.is_wall.any():
+        if self.building.truth is None and not self.mapped.wall_cells.any():
             return (
                 "No wall was found in the drawing and no ground truth was given: there "
                 "is no wall to map, and precision and recall are undefined."
@@ -97,7 +114,7 @@ class Run:
                 "The ground truth has no wall among the scored cells: recall is "
                 "undefined, and no pair of priors is better than another."
             )
-        if not self.is_wall.any():
+        if not self.mapped.wall_cells.any():
             return (
                 "No wall was found in the drawing: every cell starts from p_space and "
                 "p_wall has no effect."

@@ -1,16 +1,17 @@
 """Every setting of the app, declared once: name, default, bounds, label, unit.
 
-Controls, the share link and the checks on what comes from outside all read this one
-table. Nothing here knows Streamlit.
+Controls, the share link and the checks on what comes from outside all read the
+metadata of these fields. Nothing here knows Streamlit.
 """
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from typing import Any
 
-from occsim import BehindHit, Prior, Region, Sensor, UpdateRule
+from occsim import BehindHit, MapSettings, Prior, Region, Sensor, UpdateRule
+from occsim.prior import SOURCE_PAIR
 from occsim.priors import Elitism
 from pages._ui.choices import (
     Drawings,
@@ -19,18 +20,10 @@ from pages._ui.choices import (
     FrontAxes,
     Handover,
     Objectives,
+    Overlay,
     Picture,
     Surface,
 )
-
-
-class Overlay(Enum):
-    """What the player draws over the map."""
-
-    NONE = "none"
-    WALL_MASK = "wall_mask"
-    TRUTH = "truth"
-    ERRORS = "errors"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -45,37 +38,190 @@ class Setting:
     unit: str = ""
 
 
+def setting(default: Any, **declared: Any) -> Any:
+    """Return a field of `Settings` with its bounds and words."""
+    return field(default=default, metadata={"setting": Setting(**declared)})
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Settings:
     """All choices of one student; the building itself is kept beside it."""
 
-    cell_px: int = 3
-    range_px: int = 40
-    fov_deg: int = 30
-    behind_hit: BehindHit = BehindHit.OCCUPIED
-    clear_no_hit: bool = True
-    wall_share: float = 0.0
-    truth_share: float = 0.0
-    p_wall: float = 0.2
-    p_space: float = 0.9
-    uninformative: bool = False
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
-    region: Region = Region.EXPLORED
-    overlay: Overlay = Overlay.NONE
-    surface: Surface = Surface.SOURCE
-    fineness: Fineness = Fineness.FIFTIETH
-    drawings: Drawings = Drawings.THIS
-    picture: Picture = Picture.BELIEF
-    exploring: Exploring = Exploring.ONE
-    axes: FrontAxes = FrontAxes.SCORES
-    min_recall: float = 0.4
-    handover: Handover = Handover.RECOMMENDED
-    tolerance: float = 0.05
-    objectives: Objectives = Objectives.INTERPOLATED
-    elitism: Elitism = Elitism.CONTROLLED
-    pop_size: int = 100
-    n_gen: int = 60
-    seed: int = 1
+    cell_px: int = setting(
+        3,
+        label="Cell size",
+        unit="px",
+        low=1,
+        high=20,
+        help="Side of one map cell in pixels of the drawing. Small cells show more "
+        "detail; large ones gather more readings each.",
+    )
+    range_px: int = setting(
+        40,
+        label="Range",
+        unit="px",
+        low=5,
+        high=300,
+        help="How far the sensor reaches, in pixels of the drawing. The source sets it "
+        "to the length of a door.",
+    )
+    fov_deg: int = setting(
+        30,
+        label="Field of view",
+        unit="degrees",
+        low=5,
+        high=360,
+        help="Full opening angle of the sensor's cone. The source's camera has 30 "
+        "degrees; a turning laser scanner has 360.",
+    )
+    behind_hit: BehindHit = setting(
+        BehindHit.OCCUPIED,
+        label="Behind a hit",
+        help="What a reading says of the pixels behind the wall that it meets.",
+    )
+    clear_no_hit: bool = setting(
+        True,
+        label="A ray that meets nothing clears its pixels",
+        help="On, a ray that meets no wall within range counts all of its pixels as "
+        "empty. Off, it says nothing, as many real range finders do.",
+    )
+    wall_share: float = setting(
+        0.0,
+        label="Wall share of the prior",
+        low=0.0,
+        high=0.95,
+        step=0.05,
+        help="A cell is a wall cell of the prior where more than this share of its "
+        "pixels is wall. At 0 a single wall pixel is enough.",
+    )
+    truth_share: float = setting(
+        0.0,
+        label="Wall share of the ground truth",
+        low=0.0,
+        high=0.95,
+        step=0.05,
+        help="The same threshold for the ground truth against which the map is scored.",
+    )
+    p_wall: float = setting(
+        SOURCE_PAIR[0],
+        label="p_wall",
+        low=0.05,
+        high=1.0,
+        step=0.01,
+        help="Prior of wall cells: p_free = 0.9 × p_wall where the drawing shows a "
+        "wall.",
+    )
+    p_space: float = setting(
+        SOURCE_PAIR[1],
+        label="p_space",
+        low=0.05,
+        high=1.0,
+        step=0.01,
+        help="Prior of all other cells: p_free = 0.9 × p_space where the drawing shows "
+        "none.",
+    )
+    uninformative: bool = setting(
+        False,
+        label="Uninformative prior",
+        help="Start every cell at p_free = 0.5, as if there were no drawing.",
+    )
+    rule: UpdateRule = setting(
+        UpdateRule.PRIOR_ONCE,
+        label="Update rule",
+        help="How a reading enters the map.",
+    )
+    region: Region = setting(
+        Region.EXPLORED,
+        label="Scored region",
+        help="Score only cells that some reading has updated, or all cells.",
+    )
+    overlay: Overlay = setting(
+        Overlay.NONE, label="Overlay", help="What is drawn over the map."
+    )
+    surface: Surface = setting(
+        Surface.SOURCE,
+        label="Surface",
+        help="The source scored 10 × 10 pairs and interpolated between them. Exact: "
+        "every pair is scored by its own map. Difference: interpolated less exact.",
+    )
+    fineness: Fineness = setting(
+        Fineness.FIFTIETH,
+        label="Step",
+        help="Distance between the values of p_wall and p_space on the surface.",
+    )
+    drawings: Drawings = setting(
+        Drawings.THIS,
+        label="Drawings",
+        help="The chosen drawing, or all five reference drawings.",
+    )
+    picture: Picture = setting(
+        Picture.BELIEF,
+        label="Maps show",
+        help="The probability of free; where walls were found, invented and missed; or "
+        "how each cell's probability of free differs from the uninformative map's.",
+    )
+    exploring: Exploring = setting(
+        Exploring.ONE,
+        label="Explore",
+        help="One front and its maps; the source's search for it; or all drawings.",
+    )
+    axes: FrontAxes = setting(
+        FrontAxes.SCORES,
+        label="Axes",
+        help="Precision and recall, or the quantities that the source minimises.",
+    )
+    min_recall: float = setting(
+        0.4,
+        label="Set C: recall above",
+        high=0.95,
+        step=0.05,
+        help="The source keeps only front points whose recall exceeds 0.40, below "
+        "which too much of the building is missing.",
+    )
+    handover: Handover = setting(
+        Handover.RECOMMENDED,
+        label="Prior pair",
+        help="The pair with the highest F2 within set C, or the one chosen by hand on "
+        "this page or another.",
+    )
+    tolerance: float = setting(
+        0.05,
+        label="Tolerance",
+        high=0.3,
+        step=0.01,
+        help="A pair is good for a drawing if some point of its front is better by at "
+        "most this much in precision and in recall.",
+    )
+    objectives: Objectives = setting(
+        Objectives.INTERPOLATED,
+        label="The search sees",
+        help="The source let it see the interpolated table, which is an approximation.",
+    )
+    elitism: Elitism = setting(
+        Elitism.CONTROLLED,
+        label="Survival",
+        help="Plain NSGA-II keeps the best fronts. The source's tool also keeps some "
+        "of the worse ones, for variety.",
+    )
+    pop_size: int = setting(
+        100,
+        label="Population",
+        low=10,
+        high=200,
+        step=10,
+        help="Prior pairs in each generation.",
+    )
+    n_gen: int = setting(
+        60,
+        label="Generations",
+        low=5,
+        high=200,
+        step=5,
+        help="How often the population is renewed; the first one is random.",
+    )
+    seed: int = setting(
+        1, label="Seed", high=9999, help="Equal seeds give equal runs, on any visit."
+    )
 
     @property
     def sensor(self) -> Sensor:
@@ -88,6 +234,16 @@ class Settings:
         )
 
     @property
+    def mapping(self) -> MapSettings:
+        """What the readings and the classes of the cells depend on."""
+        return MapSettings(
+            cell_px=self.cell_px,
+            sensor=self.sensor,
+            wall_share=self.wall_share,
+            truth_share=self.truth_share,
+        )
+
+    @property
     def prior(self) -> Prior:
         """The prior of these settings."""
         if self.uninformative:
@@ -96,200 +252,9 @@ class Settings:
 
 
 TABLE: Mapping[str, Setting] = {
-    "cell_px": Setting(
-        label="Cell size",
-        unit="px",
-        low=1,
-        high=20,
-        help="Side of one map cell in pixels of the drawing. Small cells show more "
-        "detail; large ones gather more readings each.",
-    ),
-    "range_px": Setting(
-        label="Range",
-        unit="px",
-        low=5,
-        high=300,
-        help="How far the sensor reaches, in pixels of the drawing. The source sets it "
-        "to the length of a door.",
-    ),
-    "fov_deg": Setting(
-        label="Field of view",
-        unit="degrees",
-        low=5,
-        high=360,
-        help="Full opening angle of the sensor's cone. The source's camera has 30 "
-        "degrees; a turning laser scanner has 360.",
-    ),
-    "behind_hit": Setting(
-        label="Behind a hit",
-        help="What a reading says of the pixels behind the wall that it meets.",
-    ),
-    "clear_no_hit": Setting(
-        label="A ray that meets nothing clears its pixels",
-        help="On, a ray that meets no wall within range counts all of its pixels as "
-        "empty. Off, it says nothing, as many real range finders do.",
-    ),
-    "wall_share": Setting(
-        label="Wall share of the prior",
-        low=0.0,
-        high=0.95,
-        step=0.05,
-        help="A cell is a wall cell of the prior where more than this share of its "
-        "pixels is wall. At 0 a single wall pixel is enough.",
-    ),
-    "truth_share": Setting(
-        label="Wall share of the ground truth",
-        low=0.0,
-        high=0.95,
-        step=0.05,
-        help="The same threshold for the ground truth against which the map is scored.",
-    ),
-    "p_wall": Setting(
-        label="p_wall",
-        low=0.05,
-        high=1.0,
-        step=0.01,
-        help="Prior of wall cells: p_free = 0.9 × p_wall where the drawing shows a "
-        "wall.",
-    ),
-    "p_space": Setting(
-        label="p_space",
-        low=0.05,
-        high=1.0,
-        step=0.01,
-        help="Prior of all other cells: p_free = 0.9 × p_space where the drawing shows "
-        "none.",
-    ),
-    "uninformative": Setting(
-        label="Uninformative prior",
-        help="Start every cell at p_free = 0.5, as if there were no drawing.",
-    ),
-    "rule": Setting(
-        label="Update rule",
-        help="How a reading enters the map.",
-    ),
-    "region": Setting(
-        label="Scored region",
-        help="Score only cells that some reading has updated, or all cells.",
-    ),
-    "overlay": Setting(label="Overlay", help="What is drawn over the map."),
-    "surface": Setting(
-        label="Surface",
-        help="The source scored 10 × 10 pairs and interpolated between them. Exact: "
-        "every pair is scored by its own map. Difference: interpolated less exact.",
-    ),
-    "fineness": Setting(
-        label="Step",
-        help="Distance between the values of p_wall and p_space on the surface.",
-    ),
-    "drawings": Setting(
-        label="Drawings", help="The chosen drawing, or all five reference drawings."
-    ),
-    "picture": Setting(
-        label="Maps show",
-        help="The probability of free; where walls were found, invented and missed; or "
-        "how each cell's probability of free differs from the uninformative map's.",
-    ),
-    "exploring": Setting(
-        label="Explore",
-        help="One front and its maps; the source's search for it; or all drawings.",
-    ),
-    "axes": Setting(
-        label="Axes",
-        help="Precision and recall, or the quantities that the source minimises.",
-    ),
-    "min_recall": Setting(
-        label="Set C: recall above",
-        high=0.95,
-        step=0.05,
-        help="The source keeps only front points whose recall exceeds 0.40, below "
-        "which too much of the building is missing.",
-    ),
-    "handover": Setting(
-        label="Prior pair",
-        help="The pair with the highest F2 within set C, or the one chosen by hand on "
-        "this page or another.",
-    ),
-    "tolerance": Setting(
-        label="Tolerance",
-        high=0.3,
-        step=0.01,
-        help="A pair is good for a drawing if some point of its front is better by at "
-        "most this much in precision and in recall.",
-    ),
-    "objectives": Setting(
-        label="The search sees",
-        help="The source let it see the interpolated table, which is an approximation.",
-    ),
-    "elitism": Setting(
-        label="Survival",
-        help="Plain NSGA-II keeps the best fronts. The source's tool also keeps some "
-        "of the worse ones, for variety.",
-    ),
-    "pop_size": Setting(
-        label="Population",
-        low=10,
-        high=200,
-        step=10,
-        help="Prior pairs in each generation.",
-    ),
-    "n_gen": Setting(
-        label="Generations",
-        low=5,
-        high=200,
-        step=5,
-        help="How often the population is renewed; the first one is random.",
-    ),
-    "seed": Setting(
-        label="Seed", high=9999, help="Equal seeds give equal runs, on any visit."
-    ),
+    one.name: one.metadata["setting"] for one in fields(Settings)
 }
-
-CHOICES: Mapping[Enum, str] = {
-    BehindHit.OCCUPIED: "Occupied (Eq. 4.22 as printed)",
-    BehindHit.UNSEEN: "Unseen (the field's usual rule)",
-    UpdateRule.SUBTRACT_PRIOR: "Subtract prior",
-    UpdateRule.PRIOR_ONCE: "Prior once",
-    Region.EXPLORED: "Explored cells",
-    Region.ALL: "All cells",
-    Overlay.NONE: "None",
-    Overlay.WALL_MASK: "Wall mask",
-    Overlay.TRUTH: "Ground truth",
-    Overlay.ERRORS: "Errors",
-    Surface.SOURCE: "Source's 10 × 10",
-    Surface.EXACT: "Exact",
-    Surface.DIFFERENCE: "Difference",
-    Fineness.TENTH: "0.1",
-    Fineness.TWENTIETH: "0.05",
-    Fineness.FIFTIETH: "0.02",
-    Fineness.HUNDREDTH: "0.01",
-    Drawings.THIS: "This drawing",
-    Drawings.ALL: "All five",
-    Picture.BELIEF: "Probability of free",
-    Picture.ERRORS: "Errors",
-    Picture.CHANGE: "Change",
-    Exploring.ONE: "One front",
-    Exploring.SEARCH: "Search by NSGA-II",
-    Exploring.ALL: "All drawings",
-    Handover.RECOMMENDED: "Recommended",
-    Handover.CHOSEN: "Chosen by hand",
-    FrontAxes.SCORES: "precision, recall",
-    FrontAxes.INVERSE: "1/precision, 1/recall",
-    Objectives.INTERPOLATED: "the source's table, interpolated",
-    Objectives.EXACT: "each pair's own map",
-    Elitism.FULL: "NSGA-II",
-    Elitism.CONTROLLED: "NSGA-II, controlled elitism",
-}
-
-
-def apart_from_prior(settings: Settings) -> Settings:
-    """Return only what the evidence and its scores depend on, the rest as by default.
-
-    Two settings that agree in this share all readings, sweeps and fronts.
-    """
-    names = ("cell_px", "range_px", "fov_deg", "behind_hit", "clear_no_hit")
-    names += ("wall_share", "truth_share", "rule", "region")
-    return Settings(**{name: getattr(settings, name) for name in names})
+"""What is declared of each setting, by its name."""
 
 
 def with_changes(settings: Settings, changes: Mapping[str, Any]) -> Settings:
@@ -308,9 +273,9 @@ def encode(settings: Settings) -> dict[str, str]:
     """Return the settings that differ from their defaults, as text for a link."""
     defaults = Settings()
     return {
-        field.name: _text(getattr(settings, field.name))
-        for field in fields(Settings)
-        if getattr(settings, field.name) != getattr(defaults, field.name)
+        one.name: _text(getattr(settings, one.name))
+        for one in fields(Settings)
+        if getattr(settings, one.name) != getattr(defaults, one.name)
     }
 
 
@@ -327,13 +292,13 @@ def unread(query: Mapping[str, str]) -> list[str]:
 def _read(query: Mapping[str, str]) -> tuple[dict[str, Any], list[str]]:
     good: dict[str, Any] = {}
     wrong: list[str] = []
-    for field in fields(Settings):
-        if field.name not in query:
+    for one in fields(Settings):
+        if one.name not in query:
             continue
         try:
-            good[field.name] = _checked(field.name, query[field.name])
+            good[one.name] = _checked(one.name, query[one.name])
         except ValueError:
-            wrong.append(field.name)
+            wrong.append(one.name)
     return good, wrong
 
 

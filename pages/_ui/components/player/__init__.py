@@ -18,8 +18,9 @@ from occsim import Region, UpdateRule
 from occsim.logodds import DECISION_EPS
 from occsim.prior import PRIOR_SCALE
 from pages._ui import palette
+from pages._ui.choices import CHOICES, Overlay
 from pages._ui.components import component, keep_state
-from pages._ui.settings import CHOICES, TABLE, Overlay, Settings, with_changes
+from pages._ui.settings import TABLE, Settings, with_changes
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (

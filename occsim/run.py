@@ -1,0 +1,282 @@
+"""A mapping run: a building under some settings, and everything that follows.
+
+The readings, the cells' classes and the surface of scores are computed when they are
+first asked for, and kept. Nothing of a run depends on a prior or on an update rule:
+those are arguments.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy.typing as npt
+
+from occsim._types import BoolArray
+from occsim.building import Building
+from occsim.errors import ParameterError
+from occsim.evidence import EvidenceLog, collect_evidence
+from occsim.grid import Grid
+from occsim.mapping import OccupancyMap, UpdateRule, fuse
+from occsim.metrics import Region, ScoreCurves, Scores, score, scores_by_reading
+from occsim.prior import Prior, PriorMap, prior_from_cells
+from occsim.priors import (
+    SOURCE_AXIS,
+    ParetoFront,
+    PriorSurface,
+    PriorSweep,
+    prior_surface,
+    surface_front,
+    sweep_surface,
+)
+from occsim.sensor import Sensor
+from occsim.world import truth_cells, wall_cells
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class MapSettings:
+    """What a building is mapped with.
+
+    Parameters
+    ----------
+    cell_px : int, default 3
+        Side of a cell, px.
+    sensor : Sensor
+        Range, field of view, and what is said of pixels behind a hit.
+    wall_share, truth_share : float, default 0
+        Share of wall pixels that a cell of the drawing, and of the ground truth, must
+        exceed to be a wall cell, in [0, 1).
+
+    Raises
+    ------
+    ParameterError
+        Where a value lies outside its domain.
+    """
+
+    cell_px: int = 3
+    sensor: Sensor = Sensor()
+    wall_share: float = 0.0
+    truth_share: float = 0.0
+
+    def __post_init__(self) -> None:
+        Grid(height_px=1, width_px=1, cell_px=self.cell_px)
+        for name in ("wall_share", "truth_share"):
+            value = getattr(self, name)
+            if not 0.0 <= value < 1.0:
+                raise ParameterError(f"{name} must lie in [0, 1); got {value!r}")
+
+
+@dataclass(frozen=True, eq=False)
+class MappingRun:
+    """One building mapped under one `MapSettings`, ready for any prior.
+
+    Parameters
+    ----------
+    building : Building
+        Drawing, walls, world and trajectory.
+    settings : MapSettings
+        Cells and sensor.
+    log : EvidenceLog, optional
+        The readings, where they are already known: those of the same world, trajectory,
+        sensor and cells. They are simulated otherwise.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, Prior, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=5, sensor=sample.sensor))
+    >>> run.scores(Prior()).recall > run.scores(Prior.uninformative()).recall
+    True
+    """
+
+    building: Building
+    settings: MapSettings = MapSettings()
+    log: EvidenceLog | None = None
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The cells over the building."""
+        return self.building.world.grid(self.settings.cell_px)
+
+    @cached_property
+    def evidence(self) -> EvidenceLog:
+        """What the readings say, whatever the prior."""
+        if self.log is not None:
+            return self.log
+        return collect_evidence(
+            self.building.world,
+            self.building.trajectory,
+            self.settings.sensor,
+            self.grid,
+        )
+
+    @cached_property
+    def wall_cells(self) -> BoolArray:
+        """Cells in which the drawing shows a wall, ndarray of bool of shape (R, C)."""
+        mask = self.building.wall_mask
+        return wall_cells(mask, self.grid, self.settings.wall_share)
+
+    @cached_property
+    def truth_cells(self) -> BoolArray:
+        """Cells that are wall in truth, ndarray of bool of shape (R, C)."""
+        return truth_cells(self.building.world, self.grid, self.settings.truth_share)
+
+    @cached_property
+    def _surfaces(self) -> dict[tuple[UpdateRule, Region], PriorSurface]:
+        return {}
+
+    @cached_property
+    def _fronts(
+        self,
+    ) -> dict[tuple[UpdateRule, Region, float, float], ParetoFront]:
+        return {}
+
+    def prior_map(self, prior: Prior) -> PriorMap:
+        """Return what the map starts from.
+
+        Parameters
+        ----------
+        prior : Prior
+            Values for wall cells and space cells.
+
+        Returns
+        -------
+        PriorMap
+        """
+        return prior_from_cells(self.wall_cells, self.grid, prior)
+
+    def map(
+        self,
+        prior: Prior,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        n_readings: int | None = None,
+    ) -> OccupancyMap:
+        """Return the map of a prior; see `occsim.fuse`.
+
+        Parameters
+        ----------
+        prior : Prior
+            What the map starts from.
+        rule : UpdateRule, default UpdateRule.PRIOR_ONCE
+            How a reading enters the map.
+        n_readings : int, optional
+            Only the first ones; all by default.
+
+        Returns
+        -------
+        OccupancyMap
+        """
+        return fuse(self.evidence, self.prior_map(prior), rule, n_readings)
+
+    def scores(
+        self,
+        prior: Prior,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.EXPLORED,
+        n_readings: int | None = None,
+    ) -> Scores:
+        """Return how good the map of a prior is; see `occsim.score`.
+
+        Parameters
+        ----------
+        prior, rule, n_readings
+            As in `map`.
+        region : Region, default Region.EXPLORED
+            Which cells count.
+
+        Returns
+        -------
+        Scores
+        """
+        final = self.map(prior, rule, n_readings)
+        return score(final, self.truth_cells, region)
+
+    def curves(
+        self,
+        prior: Prior,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.EXPLORED,
+    ) -> ScoreCurves:
+        """Return the scores after every reading; see `occsim.scores_by_reading`.
+
+        Parameters
+        ----------
+        prior, rule, region
+            As in `scores`.
+
+        Returns
+        -------
+        ScoreCurves
+        """
+        start = self.prior_map(prior)
+        return scores_by_reading(self.evidence, start, self.truth_cells, rule, region)
+
+    def surface(
+        self,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.EXPLORED,
+    ) -> PriorSurface:
+        """Return true and false positives as exact functions of the prior pair.
+
+        Parameters
+        ----------
+        rule, region
+            As in `scores`.
+
+        Returns
+        -------
+        PriorSurface
+            The same object each time.
+        """
+        key = rule, region
+        if key not in self._surfaces:
+            self._surfaces[key] = prior_surface(
+                self.evidence, self.wall_cells, self.truth_cells, rule, region
+            )
+        return self._surfaces[key]
+
+    def sweep(
+        self,
+        p_wall: npt.ArrayLike = SOURCE_AXIS,
+        p_space: npt.ArrayLike = SOURCE_AXIS,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.EXPLORED,
+    ) -> PriorSweep:
+        """Return the scores of every pair of two axes; see `occsim.sweep_priors`.
+
+        Parameters
+        ----------
+        p_wall, p_space : array_like of shape (A,) and (B,)
+            Values in (0, 1]; the source's 0.1, 0.2, ..., 1 by default.
+        rule, region
+            As in `scores`.
+
+        Returns
+        -------
+        PriorSweep
+        """
+        return sweep_surface(self.surface(rule, region), p_wall, p_space)
+
+    def front(
+        self,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.EXPLORED,
+        low: float = SOURCE_AXIS[0],
+        high: float = SOURCE_AXIS[-1],
+    ) -> ParetoFront:
+        """Return the exact Pareto front; see `occsim.exact_front`.
+
+        Parameters
+        ----------
+        rule, region
+            As in `scores`.
+        low, high : float, default 0.1 and 1
+            Bounds of p_wall and p_space, in (0, 1].
+
+        Returns
+        -------
+        ParetoFront
+            The same object each time.
+        """
+        key = rule, region, low, high
+        if key not in self._fronts:
+            self._fronts[key] = surface_front(self.surface(rule, region), low, high)
+        return self._fronts[key]
