@@ -1,7 +1,5 @@
 """Working size, crop, quarter turns and tilt of drawings."""
 
-from pathlib import Path
-
 import cv2
 import numpy as np
 import pytest
@@ -22,8 +20,7 @@ from occsim.imaging.transform import (
     rotate90,
     rotate90_matrix,
 )
-
-SAMPLES = Path(__file__).resolve().parents[1] / "assets" / "samples"
+from occsim.samples import FOLDER
 
 
 def blank(height: int, width: int) -> np.ndarray:
@@ -142,7 +139,7 @@ def test_large_tilt_is_refused():
 @pytest.mark.parametrize("name", ["a", "c", "e"])
 @pytest.mark.parametrize("tilt_deg", [-8.0, -4.3, -1.1, 0.0, 0.4, 2.9, 6.6, 8.0])
 def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
-    drawing = load_drawing(SAMPLES / f"{name}_drawing.png")
+    drawing = load_drawing(FOLDER / f"{name}_drawing.png")
     turned = deskew(drawing, -np.radians(tilt_deg))
     found = estimate_tilt(turned)
     assert found is not None
@@ -150,7 +147,7 @@ def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
 
 
 def test_tilt_of_a_photograph_with_shadow_and_noise_is_found():
-    drawing = load_drawing(SAMPLES / "b_drawing.png")
+    drawing = load_drawing(FOLDER / "b_drawing.png")
     turned = deskew(drawing, -np.radians(3.0)).rgb.astype(float)
     height, width, _ = turned.shape
     shadow = np.linspace(1.0, 0.5, width)[None, :, None]

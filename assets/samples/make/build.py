@@ -8,13 +8,14 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from occsim.samples import FOLDER
+
 from .floor_plans import plan_a, plan_b
 from .plan import Plan
 from .sections import facade_x, plan_c, plan_d, plan_e
 from .sheet import Point
 from .tour import plan_tour
 
-FOLDER = Path(__file__).resolve().parent.parent
 FOV_DEG = 30.0  # the source's phi = pi / 6
 
 

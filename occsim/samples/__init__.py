@@ -3,7 +3,8 @@
 They are drawings of this project of the five kinds that the source uses [1]_: (a) a
 labelled floor plan, (b) a furnished one, (c) a section with stairs and double doors,
 (d) a section of walls and doors only, (e) a section with text and a door at an angle.
-The ground truths hold structure only. ``python -m assets.samples.make`` makes them.
+The ground truths hold structure only. The files beside this module are package data;
+``python -m assets.samples.make`` makes them in a checkout.
 
 References
 ----------
@@ -25,7 +26,8 @@ from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 from occsim.world import World
 
-FOLDER = Path(__file__).resolve().parent.parent / "assets" / "samples"
+FOLDER = Path(__file__).resolve().parent
+"""Where the files lie: drawings, truths, trajectories and ``samples.json``."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
