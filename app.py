@@ -3,39 +3,41 @@
 import streamlit as st
 
 from occsim import MapSettings, load_sample
-from pages._ui import compute, shell
+from pages._ui import compute, shell, words
 from pages._ui.components.player import PlayerDocument, map_player
 
 HOME_SAMPLE = "a"
 HOME_REPLAY = PlayerDocument(rev=1, compact=True)
 
-shell.begin("app.py")
-
-st.title("Occupancy grid mapping with informative priors", anchor=False)
-st.markdown(
-    "A robot with a range sensor drives through a building and records, cell by cell, "
-    "how probable it is that the cell is free. If the architect's drawing is known, "
-    "its walls can be what the map starts from: its *prior*. Here you can watch such "
-    "maps grow, change the prior while they do, and find out which priors help and "
-    "which mislead."
-)
-with st.container(key="home"):
-    links, picture = st.columns([2, 3], gap="large")
-with links:
-    for lesson in shell.LESSONS[1:]:
-        st.page_link(
-            lesson.path, label=f"**{lesson.label}**", icon=":material/arrow_forward:"
+with shell.page("app.py"):
+    st.title("Occupancy grid mapping with informative priors", anchor=False)
+    st.markdown(
+        "A robot with a range sensor drives through a building and records, cell by "
+        "cell, how probable it is that the cell is free. If the architect's drawing is "
+        "known, its walls can be what the map starts from: its *prior*. Here you can "
+        "watch such maps grow, change the prior while they do, and find out which "
+        "priors help and which mislead."
+    )
+    with st.container(key="home"):
+        links, picture = st.columns([2, 3], gap="large")
+    with links:
+        for lesson in shell.LESSONS[1:]:
+            st.page_link(
+                lesson.path,
+                label=f"**{lesson.label}**",
+                icon=":material/arrow_forward:",
+            )
+            st.caption(lesson.purpose)
+    with picture:
+        sample = load_sample(HOME_SAMPLE)
+        replay = compute.replay(
+            compute.sample(HOME_SAMPLE), MapSettings(sensor=sample.sensor)
         )
-        st.caption(lesson.purpose)
-with picture:
-    building = compute.sample(HOME_SAMPLE)
-    map_player(
-        compute.replay(building, MapSettings(sensor=load_sample(HOME_SAMPLE).sensor)),
-        HOME_REPLAY,
-        key="home_player",
-    )
-    st.caption(
-        f"The robot maps “{building.title}”. White is free, black is occupied, grey "
-        "is unknown. Poses are known exactly, the sensor has no noise, and the world "
-        "is flat."
-    )
+        map_player(replay, HOME_REPLAY, key="home_player")
+        st.caption(
+            f"The robot maps “{sample.title}”. White is free, black is occupied. What "
+            "it has not looked at yet shows what the drawing says: light grey for "
+            "space, dark grey for walls. Poses are known exactly, the sensor has no "
+            "noise, and the world is flat."
+        )
+    st.caption(words.SOURCE)

@@ -15,31 +15,31 @@ SECTIONS = {
     "7 Keep": keep.show,
 }
 
-lesson = shell.begin("pages/2_Your_building.py")
-shell.heading(lesson)
-shown = state.choice(), state.can_undo(), state.can_redo()
+with shell.page("pages/2_Your_building.py") as lesson:
+    shell.heading(lesson)
+    shown = state.choice(), state.can_undo(), state.can_redo()
 
-with st.container(horizontal=True, vertical_alignment="bottom"):
-    controls.drawing_choice()
-    with st.container(horizontal=True, width="content"):
-        st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
-        st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
-    section = st.segmented_control(
-        "Section",
-        list(SECTIONS),
-        required=True,
-        label_visibility="collapsed",
-        **state.bind_view("section", "1 Drawing"),
-    )
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.drawing_choice()
+        with st.container(horizontal=True, width="content"):
+            st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
+            st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
+        section = st.segmented_control(
+            "Section",
+            list(SECTIONS),
+            required=True,
+            label_visibility="collapsed",
+            **state.bind_view("section", "1 Drawing"),
+        )
 
-notices = st.container()
-SECTIONS[section]()
-with notices:
-    # At the end, so that they speak of what the section has just changed.
-    if state.message():
-        st.error(state.message())
-    uploads.pose_notice()
-if (state.choice(), state.can_undo(), state.can_redo()) != shown:
-    # The first stroke on a sample made it the student's own, and can be undone: the
-    # row above has to say so.
-    st.rerun()
+    notices = st.container()
+    SECTIONS[section]()
+    with notices:
+        # At the end, so that they speak of what the section has just changed.
+        if state.message():
+            shell.say_error(state.message())
+        uploads.pose_notice()
+    if (state.choice(), state.can_undo(), state.can_redo()) != shown:
+        # The first stroke on a sample made it the student's own, and can be undone: the
+        # row above has to say so.
+        st.rerun()

@@ -6,28 +6,26 @@ from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Drawings, Surface
 from pages._ui.priors import sweeping
 
-lesson = shell.begin("pages/5_Sweep_the_priors.py")
-shell.heading(lesson)
+with shell.page("pages/5_Sweep_the_priors.py") as lesson:
+    shell.heading(lesson)
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.drawing_choice()
+        controls.slider("cell_px", width=controls.NARROW_PX)
+        controls.segments("surface")
+        if state.settings().surface is not Surface.SOURCE:
+            controls.select("fineness", width=90)
+        controls.segments("drawings")
+        with st.popover("More settings"):
+            for name in ("rule", "region", "behind_hit"):
+                controls.radio(name)
+            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
+                controls.slider(name)
 
-with st.container(horizontal=True, vertical_alignment="bottom"):
-    controls.drawing_choice()
-    controls.slider("cell_px", width=controls.NARROW_PX)
-    controls.segments("surface")
-    if state.settings().surface is not Surface.SOURCE:
-        controls.select("fineness", width=90)
-    controls.segments("drawings")
-    with st.popover("More settings"):
-        for name in ("rule", "region", "behind_hit"):
-            controls.radio(name)
-        for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
-            controls.slider(name)
-
-run = compute.run(state.building(), state.settings())
-if run.notice:
-    st.warning(run.notice)
-if state.settings().drawings is Drawings.ALL:
-    sweeping.all_drawings()
-else:
-    sweeping.one_drawing(run)
-    sweeping.sizes(run)
-controls.ending()
+    run = compute.run(state.building(), state.settings())
+    if run.notice:
+        st.warning(run.notice)
+    if state.settings().drawings is Drawings.ALL:
+        sweeping.all_drawings()
+    else:
+        sweeping.one_drawing(run)
+        sweeping.sizes(run)

@@ -6,27 +6,25 @@ from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Exploring
 from pages._ui.priors import comparing, exploring, searching
 
-lesson = shell.begin("pages/6_Pareto_explorer.py")
-shell.heading(lesson)
+with shell.page("pages/6_Pareto_explorer.py") as lesson:
+    shell.heading(lesson)
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.drawing_choice()
+        controls.slider("cell_px", width=controls.NARROW_PX)
+        controls.segments("exploring")
+        controls.select("rule", width=190)
+        with st.popover("More settings"):
+            for name in ("behind_hit", "region"):
+                controls.radio(name)
+            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
+                controls.slider(name)
 
-with st.container(horizontal=True, vertical_alignment="bottom"):
-    controls.drawing_choice()
-    controls.slider("cell_px", width=controls.NARROW_PX)
-    controls.segments("exploring")
-    controls.select("rule", width=190)
-    with st.popover("More settings"):
-        for name in ("behind_hit", "region"):
-            controls.radio(name)
-        for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
-            controls.slider(name)
-
-run = compute.run(state.building(), state.settings())
-if run.notice:
-    st.warning(run.notice)
-views = {
-    Exploring.ONE: exploring.one_front,
-    Exploring.SEARCH: searching.search,
-    Exploring.ALL: comparing.all_drawings,
-}
-views[state.settings().exploring](run)
-controls.ending()
+    run = compute.run(state.building(), state.settings())
+    if run.notice:
+        st.warning(run.notice)
+    views = {
+        Exploring.ONE: exploring.one_front,
+        Exploring.SEARCH: searching.search,
+        Exploring.ALL: comparing.all_drawings,
+    }
+    views[state.settings().exploring](run)

@@ -5,21 +5,19 @@ import streamlit as st
 from pages._ui import controls, shell
 from pages._ui.priors import studying
 
-lesson = shell.begin("pages/8_Study.py")
-shell.heading(lesson)
+with shell.page("pages/8_Study.py") as lesson:
+    shell.heading(lesson)
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.select("study_rule", width=330)
+        controls.select("region", width=190)
+        controls.select("behind_hit", width=270)
+        with st.popover("More settings"):
+            controls.slider("wall_share")
+            controls.slider("truth_share")
+            controls.slider("min_recall")
 
-with st.container(horizontal=True, vertical_alignment="bottom"):
-    controls.select("rule", width=190)
-    controls.select("region", width=190)
-    controls.select("behind_hit", width=270)
-    with st.popover("More settings"):
-        controls.slider("wall_share")
-        controls.slider("truth_share")
-        controls.slider("min_recall")
-
-cases = studying.run_all()
-studying.findings(cases)
-studying.tables(cases)
-studying.all_fronts(cases)
-studying.downloads(cases)
-controls.ending()
+    cases = studying.run_all()
+    studying.findings(cases)
+    studying.tables(cases)
+    studying.all_fronts(cases)
+    studying.downloads(cases)

@@ -1,7 +1,9 @@
-"""How hypothesis runs: without a clock, and with the same examples each time in CI."""
+"""How hypothesis runs, and a watch on what pages log."""
 
+import logging
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # A busy machine is no fault of the code: no test fails because it took long.
@@ -10,3 +12,21 @@ settings.register_profile(
 )
 settings.register_profile("ci", settings.get_profile("here"), derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "here")
+
+
+@pytest.fixture(autouse=True)
+def pages_log_no_error(request):
+    """Fail a test in which a page or a callback met an error that it had to swallow.
+
+    A page shows a sentence instead of a traceback, so `AppTest.exception` is empty.
+    A test that provokes such an error is marked ``provokes_errors``.
+    """
+    met = []
+    handler = logging.Handler(logging.ERROR)
+    handler.emit = lambda record: met.append(record.getMessage())
+    logger = logging.getLogger("pages")
+    logger.addHandler(handler)
+    yield met
+    logger.removeHandler(handler)
+    if not request.node.get_closest_marker("provokes_errors"):
+        assert not met, met

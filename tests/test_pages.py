@@ -1,5 +1,6 @@
 """Every page runs, with every setting that a student can choose."""
 
+import re
 from pathlib import Path
 
 import cv2
@@ -22,6 +23,16 @@ def launch(page):
     app.run()
     assert not app.exception
     return app
+
+
+def control(app, name):
+    """The key of the widget of a setting; see `renew_widgets`."""
+    return f"control_{name}:{app.session_state['generation']}"
+
+
+def said(elements):
+    """What a page says in its errors, warnings or infos, without the escapes."""
+    return [re.sub(r"\\(.)", r"\1", one.value) for one in elements]
 
 
 def png(image):
@@ -71,7 +82,7 @@ def test_every_page_can_stand_alone(page):
 @pytest.mark.parametrize("name", sample_names())
 def test_every_reference_drawing_maps(name):
     app = launch(BUILD)
-    app.selectbox(key="control_choice").select(name).run()
+    app.selectbox(key=control(app, "choice")).select(name).run()
     assert not app.exception
     assert not app.error
     assert app.session_state["choice"] == name
@@ -82,25 +93,25 @@ def test_every_reference_drawing_maps(name):
 )
 def test_sliders_reach_their_ends(name, value):
     app = launch(BUILD)
-    app.slider(key=f"control_{name}").set_value(value).run()
+    app.slider(key=control(app, name)).set_value(value).run()
     assert not app.exception
     assert getattr(app.session_state["settings"], name) == value
 
 
 def test_the_widest_view_and_the_longest_range():
     app = launch(BUILD)
-    app.slider(key="control_fov_deg").set_value(360)
-    app.slider(key="control_range_px").set_value(300).run()
+    app.slider(key=control(app, "fov_deg")).set_value(360)
+    app.slider(key=control(app, "range_px")).set_value(300).run()
     assert not app.exception
 
 
 def test_more_than_can_be_replayed_is_refused_before_it_is_simulated():
     app = launch(BUILD)
-    app.slider(key="control_cell_px").set_value(1)
-    app.slider(key="control_fov_deg").set_value(360)
-    app.slider(key="control_range_px").set_value(300).run()
-    assert "choose larger cells" in app.error[0].value
-    app.slider(key="control_cell_px").set_value(5).run()
+    app.slider(key=control(app, "cell_px")).set_value(1)
+    app.slider(key=control(app, "fov_deg")).set_value(360)
+    app.slider(key=control(app, "range_px")).set_value(300).run()
+    assert "choose larger cells" in said(app.error)[0]
+    app.slider(key=control(app, "cell_px")).set_value(5).run()
     assert not app.error
 
 
@@ -116,7 +127,7 @@ def test_an_uploaded_plan_maps_at_once():
 def test_a_ground_truth_must_have_the_drawings_size():
     app = upload(launch(BUILD), "Drawing", "rooms.png", png(rooms()))
     app = upload(app, "Ground truth", "truth.png", png(rooms(80, 90)))
-    assert "220 x 160 px; got 90 x 80 px" in app.error[0].value
+    assert "220 x 160 px; got 90 x 80 px" in said(app.error)[0]
     app = upload(app, "Ground truth", "truth.png", png(rooms()))
     assert not app.error
     assert own(app).truth is not None
@@ -169,7 +180,7 @@ def test_poses_in_walls_and_outside_are_counted_and_can_be_dropped():
     # Truth of sample a: (100, 100) is a room, (50, 150) its outer wall, -5 outside.
     rows = b"x,y,theta_deg\n100,100,0\n100,110,90\n50,150,0\n-5,20,0\n"
     app = launch(BUILD)
-    app.selectbox(key="control_choice").select("a").run()
+    app.selectbox(key=control(app, "choice")).select("a").run()
     app = upload(app, "Trajectory", "path.csv", rows, "text/csv")
     notice = "Of 4 poses, 1 outside the drawing and 1 in walls."
     assert app.warning[0].value == notice

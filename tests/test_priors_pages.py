@@ -32,7 +32,7 @@ from pages._ui.choices import (
 )
 from pages._ui.priors import fronts, guiding, maps, surface_figures, surfaces
 from pages._ui.settings import Settings, encode, with_changes
-from tests.test_pages import ROOT, png
+from tests.test_pages import ROOT, control, png, said
 
 SWEEP = "pages/5_Sweep_the_priors.py"
 EXPLORER = "pages/6_Pareto_explorer.py"
@@ -58,7 +58,7 @@ def setting(app, name):
 def texts(app):
     """All words of a page."""
     kinds = (app.markdown, app.caption, app.warning, app.info, app.error)
-    return "\n".join(item.value for kind in kinds for item in kind)
+    return "\n".join(text for kind in kinds for text in said(kind))
 
 
 def press(app, label):
@@ -81,13 +81,13 @@ def test_each_surface_is_drawn_for_one_drawing_and_for_all(surface, drawings):
 def test_each_fineness_is_drawn():
     app = open_with(SWEEP, surface=Surface.EXACT, cell_px=10)
     for fineness in Fineness:
-        app.selectbox(key="control_fineness").select(fineness).run()
+        app.selectbox(key=control(app, "fineness")).select(fineness).run()
         assert not app.exception
 
 
 def test_a_pair_set_by_hand_is_kept_for_every_page():
     app = open_with(SWEEP, uninformative=True)
-    app.slider(key="control_p_wall").set_value(0.35).run()
+    app.slider(key=control(app, "p_wall")).set_value(0.35).run()
     assert setting(app, "p_wall") == 0.35
     assert "(p_wall, p_space) = (0.35, 0.9)" in texts(app)
 
@@ -129,7 +129,7 @@ def longest_front(cell_px):
 def test_the_slider_walks_along_the_front():
     name, front = longest_front(5)
     app = open_with(EXPLORER, cell_px=5)
-    app.selectbox(key="control_choice").select(name).run()
+    app.selectbox(key=control(app, "choice")).select(name).run()
     slider = app.select_slider(key="front_point")
     other = 0 if slider.value else 1
     slider.set_value(other).run()
@@ -159,7 +159,7 @@ def test_a_search_runs_and_its_generations_are_kept(objectives, elitism):
     app = open_with(EXPLORER, exploring=Exploring.SEARCH, **changes)
     app = press(app, "Run the search")
     assert "5 generations of 20 pairs, seed 1" in texts(app)
-    app.number_input(key="control_seed").set_value(2).run()
+    app.number_input(key=control(app, "seed")).set_value(2).run()
     assert "generations of" not in texts(app)
 
 

@@ -20,7 +20,7 @@ from pages._ui.choices import (
     Picture,
     Surface,
 )
-from pages._ui.settings import TABLE, Settings, decode, encode, unread, with_changes
+from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
 
 
 def bounded(name):
@@ -40,6 +40,7 @@ ANY_SETTINGS = st.builds(
     clear_no_hit=st.booleans(),
     uninformative=st.booleans(),
     rule=st.sampled_from(UpdateRule),
+    study_rule=st.sampled_from(UpdateRule),
     region=st.sampled_from(Region),
     overlay=st.sampled_from(Overlay),
     surface=st.sampled_from(Surface),
@@ -60,13 +61,13 @@ ANY_SETTINGS = st.builds(
 @hypothesis_settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(ANY_SETTINGS)
 def test_settings_survive_the_round_trip_through_a_link(settings):
-    assert decode(encode(settings)) == settings
+    assert decode(encode(settings)) == (settings, [])
 
 
 @given(st.dictionaries(st.sampled_from([*TABLE, "other"]), st.text()))
 def test_a_damaged_link_gives_valid_settings(query):
-    settings = decode(query)
-    assert decode(encode(settings)) == settings
+    settings, _ = decode(query)
+    assert decode(encode(settings)) == (settings, [])
 
 
 def test_defaults_need_no_link():
@@ -90,5 +91,12 @@ def test_every_setting_is_declared_and_every_choice_has_words():
 
 def test_the_wrong_values_of_a_link_are_named():
     query = {"cell_px": "abc", "p_wall": "9", "p_space": "0.5", "utm": "x"}
-    assert unread(query) == ["cell_px", "p_wall"]
-    assert decode(query) == Settings(p_space=0.5)
+    assert decode(query) == (Settings(p_space=0.5), ["cell_px", "p_wall"])
+
+
+def test_a_link_says_what_differs_from_the_drawing_and_nothing_else():
+    """A range of 40 px differs where the doors are 20 px long."""
+    of_drawing = Settings(range_px=20)
+    assert encode(Settings(range_px=40), of_drawing) == {"range_px": "40"}
+    assert encode(Settings(range_px=20), of_drawing) == {}
+    assert decode({}, of_drawing) == (of_drawing, [])

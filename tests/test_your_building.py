@@ -21,7 +21,7 @@ from occsim.io.project import Project, dump_project
 from occsim.strokes import Stroke, StrokeKind, encode_strokes
 from pages._ui.state import OPENING
 from pages._ui.your_building import poses
-from tests.test_pages import launch, png, rooms, upload
+from tests.test_pages import control, launch, png, rooms, said, upload
 
 PAGE = "pages/2_Your_building.py"
 SECTIONS = (
@@ -194,9 +194,9 @@ def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
 def test_lengths_are_in_metres_where_the_scale_is_known():
     app = launch("pages/1_Build_a_map.py")
     # Sample a: doors of 40 px and 0.9 m, cells of 3 px.
-    assert app.slider(key="control_cell_px").label == "Cell size (px; 0.07 m)"
+    assert app.slider(key=control(app, "cell_px")).label == "Cell size (px; 0.07 m)"
     app = upload(app, "Drawing", "rooms.png", png(rooms()))
-    assert app.slider(key="control_cell_px").label == "Cell size (px)"
+    assert app.slider(key=control(app, "cell_px")).label == "Cell size (px)"
 
 
 def test_undone_strokes_leave_the_mask():
@@ -314,7 +314,7 @@ def test_every_trajectory_file_is_taken(kind):
 def test_the_unit_of_the_angles_may_be_told_afterwards():
     app = at("6 Trajectory", way="Files")
     app = upload(app, "Trajectory", "a.csv", b"100,100,90\n100,110,180\n", "text/csv")
-    assert "degrees or radians" in app.error[0].value
+    assert "degrees or radians" in said(app.error)[0]
     app.radio(key="view_angle_unit").set_value("Degrees").run()
     assert not app.error
     np.testing.assert_allclose(own(app).trajectory.poses[:, 2], [math.pi / 2, math.pi])

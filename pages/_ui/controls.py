@@ -109,14 +109,3 @@ def drawing_choice() -> None:
         width=DRAWING_PX,
         **state.bind_choice(),
     )
-
-
-def ending() -> None:
-    """Draw what a page ends with: a link to it as it is, and the way back."""
-    with st.container(horizontal=True, horizontal_alignment="right"):
-        with st.popover("Copy link"):
-            st.code(state.link(), language=None, wrap_lines=True)
-            st.caption(
-                "Opens this drawing with these settings; your own files stay here."
-            )
-        st.button("Reset all", on_click=state.reset_all)

@@ -130,6 +130,12 @@ class Settings:
         label="Update rule",
         help="How a reading enters the map.",
     )
+    study_rule: UpdateRule = setting(
+        UpdateRule.SUBTRACT_PRIOR,
+        label="Update rule of the study",
+        help="The study repeats what the source did, so it opens with the rule that "
+        "the source used, as we reconstruct it.",
+    )
     region: Region = setting(
         Region.EXPLORED,
         label="Scored region",
@@ -269,27 +275,23 @@ def with_changes(settings: Settings, changes: Mapping[str, Any]) -> Settings:
     return replace(settings, **checked)
 
 
-def encode(settings: Settings) -> dict[str, str]:
-    """Return the settings that differ from their defaults, as text for a link."""
-    defaults = Settings()
+def encode(settings: Settings, defaults: Settings | None = None) -> dict[str, str]:
+    """Return the settings that differ from some defaults, as text for a link."""
+    given = defaults or Settings()
     return {
         one.name: _text(getattr(settings, one.name))
         for one in fields(Settings)
-        if getattr(settings, one.name) != getattr(defaults, one.name)
+        if getattr(settings, one.name) != getattr(given, one.name)
     }
 
 
-def decode(query: Mapping[str, str]) -> Settings:
-    """Return the settings of a link; what is unknown or wrong keeps its default."""
-    return replace(Settings(), **_read(query)[0])
+def decode(
+    query: Mapping[str, str], defaults: Settings | None = None
+) -> tuple[Settings, list[str]]:
+    """Return the settings of a link, and the names of those it gives wrong values.
 
-
-def unread(query: Mapping[str, str]) -> list[str]:
-    """Return the names of the settings that a link gives wrong values."""
-    return _read(query)[1]
-
-
-def _read(query: Mapping[str, str]) -> tuple[dict[str, Any], list[str]]:
+    What is missing or wrong keeps its default; what is unknown is not looked at.
+    """
     good: dict[str, Any] = {}
     wrong: list[str] = []
     for one in fields(Settings):
@@ -297,9 +299,9 @@ def _read(query: Mapping[str, str]) -> tuple[dict[str, Any], list[str]]:
             continue
         try:
             good[one.name] = _checked(one.name, query[one.name])
-        except ValueError:
+        except (ValueError, OverflowError):
             wrong.append(one.name)
-    return good, wrong
+    return replace(defaults or Settings(), **good), wrong
 
 
 def _text(value: Any) -> str:

@@ -1,7 +1,9 @@
 """What every page starts with: set-up, the lessons, state; and what it ends with."""
 
 import contextlib
-from collections.abc import Iterator
+import functools
+import logging
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +11,10 @@ import streamlit as st
 from streamlit.errors import StreamlitPageNotFoundError
 
 from occsim import OccsimError
-from pages._ui import state
+from pages._ui import state, words
+from pages._ui.components.address import address
+
+LOG = logging.getLogger(__name__)
 
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
@@ -46,14 +51,14 @@ LESSONS = (
     Lesson(
         "pages/6_Pareto_explorer.py",
         "Pareto explorer",
-        "No prior has both the highest precision and the highest recall: these are the "
-        "best compromises, and the map that each of them gives.",
+        "Precision and recall of a map often conflict: these are the best compromises "
+        "of the two, and the map that each of them gives.",
     ),
     Lesson(
         "pages/7_Best_prior.py",
         "Best prior",
         "The whole way for one drawing: from its walls to the prior that serves it "
-        "best, to take away.",
+        "best, to download.",
     ),
     Lesson(
         "pages/8_Study.py",
@@ -85,8 +90,13 @@ CSS = """
 """
 
 
-def begin(path: str) -> Lesson:
-    """Set the page up, draw the lesson navigation and return the page's lesson."""
+@contextlib.contextmanager
+def page(path: str) -> Iterator[Lesson]:
+    """Draw what every page has around its own part.
+
+    The set-up, the navigation and notices come before it, the link and the way back
+    after it. Whatever goes wrong in between leaves both, and the student's work.
+    """
     lesson = next(item for item in LESSONS if item.path == path)
     st.set_page_config(
         page_title=f"{lesson.label} · Occupancy grid mapping",
@@ -99,7 +109,60 @@ def begin(path: str) -> Lesson:
     _navigation(path)
     if state.link_notice(path):
         st.warning(state.link_notice(path))
-    return lesson
+    with _last_resort(path):
+        yield lesson
+    _ending()
+
+
+@contextlib.contextmanager
+def _last_resort(path: str) -> Iterator[None]:
+    """Turn any failure into a sentence; one that is no refusal is logged."""
+    try:
+        yield
+    except OccsimError as error:
+        say_error(str(error))
+    except Exception:
+        LOG.exception("page %s failed", path)
+        say_error(
+            "This page failed: an error in this program, which has been logged. Your "
+            "work is kept. Undo the last change, or reset all settings below."
+        )
+        if state.can_undo():
+            st.button("Undo the last change", on_click=state.undo)
+
+
+def fragment(part: Callable[..., None]) -> Callable[..., None]:
+    """Make a part of a page run by itself, with the same care as the whole page."""
+
+    @st.fragment
+    @functools.wraps(part)
+    def run(*args: object) -> None:
+        with _last_resort(part.__module__):
+            part(*args)
+        address(state.query(), has_button=False, key=f"address {part.__name__}")
+
+    return run
+
+
+def say_error(text: str) -> None:
+    """Show a sentence on what went wrong; words of a user's stay plain text."""
+    st.error(words.plain(text))
+
+
+def _ending() -> None:
+    own = state.choice() == state.OWN
+    kept = not own or state.work_key() is not None
+    note = "It opens this page as it is."
+    if own:
+        note = (
+            "It opens this page as it is, from this server only and for a day; the "
+            "project file lasts longer (Your building, 7 Keep)."
+        )
+    with st.container(
+        horizontal=True, horizontal_alignment="right", vertical_alignment="center"
+    ):
+        address(state.query(), note=note, unsaved=not kept, key="address")
+        st.button("Reset all", on_click=state.reset_all)
 
 
 def _navigation(path: str) -> None:
@@ -116,12 +179,3 @@ def heading(lesson: Lesson) -> None:
     """Draw the title of a page and its one sentence of purpose."""
     st.title(lesson.label, anchor=False)
     st.caption(lesson.purpose)
-
-
-@contextlib.contextmanager
-def explained() -> Iterator[None]:
-    """Show what the library refuses as its one sentence; the page goes on below."""
-    try:
-        yield
-    except OccsimError as error:
-        st.error(str(error))

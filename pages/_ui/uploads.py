@@ -122,7 +122,7 @@ def _map_page(key: str) -> None:
 def _map(loaded: Drawing) -> None:
     working_px = int(state.view(WORKING, WORKING_PX))
     sensor = state.settings().sensor
-    state.set_own(compute.own_building(loaded, sensor, working_px))
+    state.open_own(compute.own_building(loaded, sensor, working_px))
     state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 

@@ -5,7 +5,7 @@ import streamlit as st
 from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
 from occsim.priors import ParetoFront, near_front
-from pages._ui import compute, controls, state
+from pages._ui import compute, controls, shell, state, words
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps, surfaces
 from pages._ui.priors.front_figures import DrawingFront
@@ -24,7 +24,7 @@ def all_drawings(run: Run) -> None:
     _fronts_and_region(runs)
 
 
-@st.fragment
+@shell.fragment
 def _fronts_and_region(runs: dict[str, Run]) -> None:
     settings = state.settings()
     values = surfaces.axis(STEP)
@@ -78,7 +78,7 @@ def verdict(count: list[list[int]], runs: dict[str, Run], tolerance: float) -> s
     gap = worst_gap(runs, Prior())
     inside = "is one of them" if gap <= tolerance else "is not one of them"
     return (
-        f"**{maps.percent(share)}** of all pairs are within {100 * tolerance:.0f} "
+        f"**{words.percent(share)}** of all pairs are within {100 * tolerance:.0f} "
         f"points of every drawing's front. The source's (0.2, 0.9) {inside}: it needs "
         f"a tolerance of {maps.tolerance(gap)}; the chosen pair needs "
         f"{maps.tolerance(worst_gap(runs, state.prior()))}."
@@ -126,7 +126,7 @@ def table(runs: dict[str, Run], prior: Prior) -> str:
     for name, run in runs.items():
         scores = run.scores(prior)
         cells = [scores.precision, scores.recall, scores.f2]
-        words = " | ".join(maps.percent(value) for value in cells)
+        shown = " | ".join(words.percent(value) for value in cells)
         gap = maps.tolerance(fronts.distance(run.front, scores))
-        lines.append(f"| {name}: {run.building.title} | {words} | {gap} |")
+        lines.append(f"| {name}: {words.plain(run.building.title)} | {shown} | {gap} |")
     return "\n".join(lines)

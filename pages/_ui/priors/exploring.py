@@ -5,14 +5,14 @@ import streamlit as st
 from occsim import Prior
 from occsim.prior import SOURCE_PAIR
 from occsim.priors import recommend, rectangles_at, set_c
-from pages._ui import controls, palette, state
+from pages._ui import controls, palette, shell, state, words
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps
 from pages._ui.priors.front_figures import Mark
 from pages._ui.runs import Run
 
 
-@st.fragment
+@shell.fragment
 def one_front(run: Run) -> None:
     """A front, its pairs, and the map of the chosen pair; then others to compare."""
     front = run.front
@@ -32,7 +32,7 @@ def one_front(run: Run) -> None:
             controls.slider("p_space", width=controls.NARROW_PX)
     _choices(run)
     _others(run)
-    words()
+    explain()
 
 
 def _front_chart(run: Run) -> None:
@@ -62,7 +62,7 @@ def _marks(run: Run) -> list[Mark]:
 def _point_slider(run: Run) -> None:
     front = run.front
     labels = [
-        f"{maps.percent(precision)}, {maps.percent(recall)}"
+        f"{words.percent(precision)}, {words.percent(recall)}"
         for precision, recall in fronts.scores_at(front)
     ]
 
@@ -123,30 +123,30 @@ def _where(run: Run) -> str:
     front, min_recall = run.front, state.settings().min_recall
     best = recommend(front, min_recall)
     if best is None:
-        words = ["Set C is empty: no point of the front has a recall above its bound."]
+        said = ["Set C is empty: no point of the front has a recall above its bound."]
     else:
         n_inside = len(set_c(front, min_recall))
         pair = maps.pair_text(float(front.p_wall[best]), float(front.p_space[best]))
-        words = [
+        said = [
             f"{n_inside} of {len(front)} points lie in set C (full circles); {pair} "
             "has the highest F2 of them and is recommended."
         ]
     if len(front) == 1:
-        words.append(
-            "One pair attains the highest precision and the highest recall: where the "
-            "prior is nearly right, nothing has to be given up. Try another drawing or "
-            "larger cells."
+        said.append(
+            "One pair attains the highest precision and the highest recall, so nothing "
+            "has to be given up here. Other drawings and larger cells have longer "
+            "fronts."
         )
     gap = fronts.distance(front, run.scores(state.prior()))
     if gap == 0.0:
-        words.append("The chosen pair is on the front.")
+        said.append("The chosen pair is on the front.")
     elif gap > 0.0:
-        words.append(
+        said.append(
             "The chosen pair is off the front: the nearest point is better by up to "
             f"{100 * gap:.1f} points."
         )
-    words.append("The pink rectangles hold all pairs that score as it does.")
-    return " ".join(words)
+    said.append("The pink rectangles hold all pairs that score as it does.")
+    return " ".join(said)
 
 
 def _others(run: Run) -> None:
@@ -164,8 +164,8 @@ def _others(run: Run) -> None:
     st.caption(maps.LEGENDS[kind])
 
 
-def words() -> None:
-    """What to see, to tell and why."""
+def explain() -> None:
+    """What to see, to predict and why."""
     see, tell, why = st.columns(3, gap="large")
     with see:
         st.markdown(
@@ -175,7 +175,7 @@ def words() -> None:
         )
     with tell:
         st.markdown(
-            "**Tell before you click.** Which end of the front has the thicker walls?"
+            "**Predict**, then click. Which end of the front has the thicker walls?"
         )
         with st.expander("And then?"):
             st.markdown(

@@ -12,7 +12,7 @@ from occsim.io.prior_map import (
     prior_png,
 )
 from occsim.priors import recommend, set_c
-from pages._ui import compute, palette, state
+from pages._ui import compute, palette, shell, state, words
 from pages._ui.choices import FrontAxes, Handover, Picture
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, maps
@@ -41,7 +41,7 @@ def drawing(run: Run) -> None:
     """Step 1: what the architect gave."""
     building = run.building
     height, width = building.drawing.shape
-    _head(1, f"Drawing: {building.title}")
+    _head(1, f"Drawing: {words.plain(building.title)}")
     st.image(drawing_png(building.drawing), width="stretch", alt="The drawing")
     st.caption(
         f"{width} x {height} px. Choose another above, or bring your own on the page "
@@ -59,9 +59,9 @@ def walls(run: Run) -> None:
         return
     found = compute.comparison(building)
     st.caption(
-        f"By image processing, so with errors: {maps.percent(found.precision)} of "
-        f"these pixels are wall in truth, and {maps.percent(found.recall)} of the true "
-        "walls are found (within 2 px)."
+        f"By image processing, so with errors: {words.percent(found.precision)} of "
+        f"these pixels are wall in truth, and {words.percent(found.recall)} of the "
+        "true walls are found (within 2 px)."
     )
 
 
@@ -74,7 +74,7 @@ def evidence(run: Run) -> None:
         width="stretch",
         alt="The map of the uninformative prior",
     )
-    share = maps.percent(coverage(run.map(blank)))
+    share = words.percent(coverage(run.map(blank)))
     st.caption(
         f"{run.evidence.n_readings} readings saw {share} of the cells. Simulated once, "
         f"they serve every prior; without a drawing: {_short(run, blank)}."
@@ -118,9 +118,10 @@ def best_map(run: Run, prior: Prior) -> None:
     maps.against_uninformative(run, prior)
     if prior.p_wall > prior.p_space:
         st.caption(
-            "It calls wall cells freer than the others. With *subtract prior* that can "
-            "win: each further reading pushes a cell away from its prior. Compare with "
-            "*prior once*."
+            "Take care: this is the negative of the drawing. It calls wall cells freer "
+            "than the others. It can win where the prior is taken off at every "
+            "reading, which pushes a cell away from its prior from the second reading "
+            "on; no map should start from it. Compare with *Count the drawing once*."
         )
     st.button(
         "Use this pair on every page",
@@ -131,7 +132,7 @@ def best_map(run: Run, prior: Prior) -> None:
 
 
 def prior_map(run: Run, prior: Prior) -> None:
-    """Step 6: the prior map, to take away."""
+    """Step 6: the prior map, to download."""
     made = run.prior_map(prior)
     _head(6, "Prior map")
     st.image(prior_png(made), width="stretch", alt="The prior map")
@@ -185,7 +186,7 @@ def chosen_on(run: Run, prior: Prior) -> dict[str, Plain]:
     }
 
 
-@st.fragment
+@shell.fragment
 def cost(run: Run, prior: Prior) -> None:
     """The measured cost of a mapping step with this prior and without one."""
     if not run.evidence.n_readings:
@@ -218,6 +219,6 @@ def _head(number: int, title: str) -> None:
 def _short(run: Run, prior: Prior) -> str:
     scores = run.scores(prior)
     return (
-        f"precision {maps.percent(scores.precision)}, recall "
-        f"{maps.percent(scores.recall)}, F2 {maps.percent(scores.f2)}"
+        f"precision {words.percent(scores.precision)}, recall "
+        f"{words.percent(scores.recall)}, F2 {words.percent(scores.f2)}"
     )

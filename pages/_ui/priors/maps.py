@@ -6,19 +6,14 @@ from occsim import Prior, Scores
 from pages._ui import state
 from pages._ui.choices import Picture
 from pages._ui.runs import Run
+from pages._ui.words import DASH, percent
 
-DASH = "–"
 LEGENDS = {
     Picture.BELIEF: "White is free, black is occupied, grey is unknown.",
     Picture.ERRORS: "Black: wall found. Orange: false wall. Blue: missed wall. "
     "Hatched: not scored.",
     Picture.CHANGE: "Orange: more occupied than without the drawing. Blue: more free.",
 }
-
-
-def percent(value: float) -> str:
-    """A share in percent; a dash where it is undefined."""
-    return DASH if value != value else f"{100 * value:.1f} %"
 
 
 def points(value: float) -> str:

@@ -5,11 +5,11 @@ import contextlib
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages._ui import compute, controls, state
+from pages._ui import compute, controls, state, words
 from pages._ui.choices import Objectives
 from pages._ui.compute import SearchStep
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import maps, search_figures
+from pages._ui.priors import search_figures
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
@@ -67,7 +67,7 @@ def _watch(run: Run, settings: Settings, key: object, place: DeltaGenerator) -> 
         for step in generations:
             steps.append(step)
             state.keep_search(key, steps)
-            share = maps.percent(step.share)
+            share = words.percent(step.share)
             bar.progress(
                 step.number / settings.n_gen,
                 f"Generation {step.number} of {settings.n_gen}: hypervolume {share} of "
@@ -85,7 +85,7 @@ def _summary(steps: list[SearchStep], settings: Settings) -> str:
     last = steps[-1]
     text = (
         f"{last.number} generations of {settings.pop_size} pairs, seed "
-        f"{settings.seed}: their maps attain {maps.percent(last.share)} of the exact "
+        f"{settings.seed}: their maps attain {words.percent(last.share)} of the exact "
         "front's hypervolume."
     )
     if last.number < settings.n_gen:
@@ -107,7 +107,7 @@ def _words() -> None:
         )
     with tell:
         st.markdown(
-            "**Tell before you run.** Can the search, on the source's table, promise "
+            "**Predict**, then run. Can the search, on the source's table, promise "
             "more than the exact front allows?"
         )
         with st.expander("And then?"):

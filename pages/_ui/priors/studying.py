@@ -18,7 +18,7 @@ from occsim.study import (
     sweeps_csv,
 )
 from occsim.study.published import SOURCE_CELLS_PX
-from pages._ui import compute, state
+from pages._ui import compute, shell, state, words
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures
 
@@ -41,7 +41,7 @@ def settings() -> StudySettings:
     """The settings of the app that concern all cases."""
     chosen = state.settings()
     return StudySettings(
-        rule=chosen.rule,
+        rule=chosen.study_rule,
         region=chosen.region,
         behind_hit=chosen.behind_hit,
         wall_share=chosen.wall_share,
@@ -74,7 +74,7 @@ def run_all() -> list[StudyCase]:
         bar.progress(done / len(pairs), f"{done} of {len(pairs)} cases")
     bar.empty()
     for name, reason in refused.items():
-        st.error(f"Drawing {name} is left out: {reason}")
+        shell.say_error(f"Drawing {name} is left out: {reason}")
     return cases
 
 
@@ -111,8 +111,8 @@ def tables(cases: list[StudyCase]) -> None:
 
 def _shown(value: object) -> str:
     if isinstance(value, float):
-        return "–" if math.isnan(value) else f"{value:.2f}"
-    return str(value) or "–"
+        return words.DASH if math.isnan(value) else f"{value:.2f}"
+    return words.ranges(str(value)) or words.DASH
 
 
 def all_fronts(cases: list[StudyCase]) -> None:

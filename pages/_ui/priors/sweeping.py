@@ -4,8 +4,8 @@ import streamlit as st
 
 from occsim import Objective, maxima, sample_names
 from occsim.priors import Maxima, ParetoFront
-from pages._ui import compute, controls, state
-from pages._ui.choices import Surface
+from pages._ui import compute, controls, shell, state, words
+from pages._ui.choices import Drawings, Surface
 from pages._ui.priors import maps, surface_figures, surfaces
 from pages._ui.runs import Run
 from pages._ui.settings import with_changes
@@ -18,7 +18,7 @@ def pairs(of: Maxima | ParetoFront) -> list[tuple[float, float]]:
     return list(zip(of.p_wall.tolist(), of.p_space.tolist(), strict=True))
 
 
-@st.fragment
+@shell.fragment
 def one_drawing(run: Run) -> None:
     """Both surfaces of one drawing, and the map of the chosen pair."""
     *charts, side = st.columns([4, 4, 4], gap="medium")
@@ -70,7 +70,7 @@ def all_drawings() -> None:
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:
         show_maxima(runs, f"cells of {settings.cell_px} px", "Drawing")
-        words(next(iter(runs.values())))
+        explain(next(iter(runs.values())))
 
 
 def sizes(run: Run) -> None:
@@ -84,9 +84,9 @@ def sizes(run: Run) -> None:
     }
     table, text = st.columns(2, gap="large")
     with table:
-        show_maxima(runs, building.title, "Cells")
+        show_maxima(runs, words.plain(building.title), "Cells")
     with text:
-        words(run)
+        explain(run)
 
 
 def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
@@ -96,22 +96,35 @@ def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
     for name, run in runs.items():
         for which in Objective:
             best = maxima(surfaces.source_sweep(run), which)
-            value = maps.percent(best.value)
-            lines.append(f"| {name} | {which.value} | {value} | {best.text} |")
+            value = words.percent(best.value)
+            lines.append(
+                f"| {name} | {which.value} | {value} | {words.ranges(best.text)} |"
+            )
     st.markdown(f"**Maxima of the 10 × 10 pairs: {title}**")
     st.markdown("\n".join(lines))
-    st.caption("Ties are written as the source writes them: 0.7:1 means 0.7 to 1.")
 
 
-def words(run: Run) -> None:
-    """What to see, to tell and why."""
+def _see() -> str:
+    """What the colours of this view mean, and what can be done with it."""
+    settings = state.settings()
+    if settings.surface is Surface.DIFFERENCE:
+        colours = (
+            "Orange: the interpolated table promises less than the pair's own map has; "
+            "blue: it promises more."
+        )
+    else:
+        colours = "Yellow is high, blue is low, each score on its own scale."
+    star = "The star is the source's choice, (0.2, 0.9)."
+    if settings.drawings is Drawings.ALL:
+        return f"{colours} {star}"
+    return f"{colours} Point at a pair for its value, click it for its map. {star}"
+
+
+def explain(run: Run) -> None:
+    """What to see, to predict and why, of the view that is shown."""
+    st.markdown(f"**See.** {_see()}")
     st.markdown(
-        "**See.** Yellow is high, blue is low, each score on its own scale. Point at a "
-        "pair of a single drawing for its value, click it for its map; the star is the "
-        "source's choice, (0.2, 0.9)."
-    )
-    st.markdown(
-        "**Tell before you switch to Exact.** Is the true surface as smooth as the "
+        "**Predict**, then switch to *Exact*. Is the true surface as smooth as the "
         "interpolated one?"
     )
     with st.expander("And then?"):

@@ -1,5 +1,7 @@
 """What a student has chosen: the settings, the drawing, and the link that says so."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 from urllib.parse import urlencode, urlsplit, urlunsplit
 
@@ -9,51 +11,82 @@ from occsim import load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
 from pages._ui.components.player import SHARED, PlayerDocument
-from pages._ui.settings import Settings, decode, encode, unread, with_changes
-from pages._ui.state.replay import forget_player, open_half_way
+from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
+from pages._ui.state.replay import (
+    forget_player,
+    go_to_place,
+    open_half_way,
+    place_in_replay,
+)
+from pages._ui.state.works import WORKS
 
 OWN = "own"
 OPENING = "b"
 """The drawing that the app opens with: a shelf and a balcony are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
+GONE = (
+    "The building of this link is no longer on this server: it has been restarted, or "
+    "the building was kept too long ago. Open your project file on the page Your "
+    "building to go on; the settings of the link are used."
+)
 
 
 def prepare(path: str) -> None:
-    """Fill a new session; note when another page was entered."""
+    """Fill a new session from its link; note when another page was entered."""
     state = st.session_state
     if "settings" not in state:
-        asked = st.query_params.get("drawing", "")
-        first = asked if asked in sample_names() else OPENING
-        state.choice = first
-        state.own = None
-        state.message = ""
-        state.played = PlayerDocument()
-        state.settings = _for_sample(decode(st.query_params.to_dict()), first)
-        state.link_notice = path, _damage(asked)
-        open_half_way(building())
+        _open_link(path, st.query_params.to_dict())
     # A component that leaves the screen forgets what it knew.
     if state.get("path") != path:
         state.path = path
         forget_player()
 
 
-def _damage(asked: str) -> str:
-    """What of the link could not be followed, in a sentence; empty if all was."""
-    wrong = unread(st.query_params.to_dict())
-    if asked and asked not in sample_names():
-        wrong.insert(0, "drawing")
-    if not wrong:
-        return ""
-    return (
-        f"The link gives no usable value for {', '.join(wrong)}; there the defaults "
-        "are used."
-    )
+def _open_link(path: str, query: Mapping[str, str]) -> None:
+    """Start a session where a link says; it is read once."""
+    state = st.session_state
+    state.own, state.work = None, None
+    state.message, state.generation = "", 0
+    state.past = state.future = ()
+    notices = []
+    if "work" in query:
+        state.own = WORKS.find(query["work"])
+        notices += [] if state.own else [GONE]
+    wrong = []
+    asked = query.get("drawing", OPENING)
+    if asked not in sample_names():
+        wrong.append("drawing")
+        asked = OPENING
+    state.choice = OWN if state.own else asked
+    state.settings, more = decode(query, defaults(state.choice))
+    wrong += more
+    state.played = PlayerDocument()
+    open_half_way(building())
+    go_to_place(query)
+    if wrong:
+        notices.append(
+            f"The link gives no usable value for {', '.join(wrong)}; there the "
+            "defaults are used."
+        )
+    state.link_notice = path, " ".join(notices)
 
 
 def link_notice(path: str) -> str:
     """What was wrong with the link that opened this page; empty on other pages."""
     opened, words = st.session_state.link_notice
     return words if path == opened else ""
+
+
+def defaults(name: str) -> Settings:
+    """The settings that a drawing opens with: the range is the length of its doors."""
+    if name == OWN:
+        door_px = st.session_state.own.door_px
+    else:
+        door_px = load_sample(name).sensor.range_px
+    if door_px is None:
+        return Settings()
+    bounds = TABLE["range_px"]
+    return Settings(range_px=round(min(max(door_px, bounds.low), bounds.high)))
 
 
 def settings() -> Settings:
@@ -69,24 +102,52 @@ def change(**changes: Any) -> None:
 
 
 def reset_all() -> None:
-    """Return to the preset of the chosen drawing; a building of one's own is kept."""
-    st.session_state.settings = Settings()
-    choose(choice())
+    """Return to what the chosen drawing opens with; a building of one's own is kept."""
+    st.session_state.settings = defaults(choice())
+    renew_widgets()
+    open_half_way(building())
+
+
+def renew_widgets() -> None:
+    """Give the widgets of settings new keys, so that late events of old ones are lost.
+
+    A slider that is moved before the browser has heard of a reset sends its own old
+    value along with those of all others.
+    """
+    st.session_state.generation += 1
+
+
+def query() -> dict[str, str]:
+    """Return all that a link to this state says."""
+    name = choice()
+    where = {"drawing": name}
+    if name == OWN:
+        key = work_key()
+        where = {} if key is None else {"work": key}
+    place = place_in_replay(building())
+    return where | encode(settings(), defaults(name)) | place
+
+
+def work_key() -> str | None:
+    """Return the key under which the building of one's own is kept; None if it is not.
+
+    A session that opened another's link goes on under a key of its own once it changes
+    the building.
+    """
+    state = st.session_state
+    key, kept = state.work or (None, None)
+    if kept is not state.own:
+        state.work = WORKS.keep(state.own, key), state.own
+    return state.work[0]
 
 
 def link() -> str:
     """Return the address of this page with this drawing and these settings."""
-    drawing = {} if choice() == OWN else {"drawing": choice()}
     page = urlsplit(st.context.url or "")
-    query = urlencode(drawing | encode(settings()))
-    return urlunsplit(page._replace(query=query, fragment=""))
+    return urlunsplit(page._replace(query=urlencode(query()), fragment=""))
 
 
-def _for_sample(current: Settings, name: str) -> Settings:
-    """The settings with the range that the source gives to a drawing: a door's."""
-    if "range_px" in st.query_params:
-        return current
-    return with_changes(current, {"range_px": round(load_sample(name).sensor.range_px)})
+# --- The building -----------------------------------------------------------------
 
 
 def choice() -> str:
@@ -101,9 +162,11 @@ def choices() -> list[str]:
 
 def choose(name: str) -> None:
     """Choose a drawing; the sensor's range follows the length of its doors."""
+    if name not in choices():
+        return  # the choice of a page that an undo has overtaken
     st.session_state.choice = name
-    if name != OWN:
-        st.session_state.settings = _for_sample(settings(), name)
+    range_px = defaults(name).range_px
+    st.session_state.settings = replace(settings(), range_px=range_px)
     open_half_way(building())
 
 

@@ -1,7 +1,8 @@
 """Edits of the building of a student's own, which can be taken back; messages."""
 
+import logging
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import streamlit as st
@@ -9,14 +10,77 @@ import streamlit as st
 from occsim import OccsimError
 from occsim.building import Building
 from pages._ui.settings import decode
-from pages._ui.state.chosen import OWN, building, choose
+from pages._ui.state.chosen import (
+    OWN,
+    building,
+    change,
+    choose,
+    defaults,
+    renew_widgets,
+    settings,
+)
+from pages._ui.state.replay import forget_player
+from pages._ui.state.works import size_of
 
-MAX_PAST = 20
+LOG = logging.getLogger(__name__)
+MAX_PAST = 50
 """Edits of the building that can be taken back; they share what they leave alone."""
+MAX_PAST_BYTES = 60_000_000
+"""What those may hold together; the oldest are forgotten first."""
+UNEXPECTED = (
+    "That could not be done: an error in this program, which has been logged. What you "
+    "had is unchanged."
+)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Snapshot:
+    """What an edit can change."""
+
+    choice: str
+    own: Building | None
+    range_px: int
+
+    def is_as(self, other: "Snapshot") -> bool:
+        """Whether nothing differs; parts are compared by identity."""
+        return (
+            self.choice == other.choice
+            and self.range_px == other.range_px
+            and _are_same(self.own, other.own)
+        )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Step:
+    """One edit: what was before it, what after, and what kind of edit it was."""
+
+    before: Snapshot
+    after: Snapshot
+    tag: str
+
+
+def _are_same(a: Building | None, b: Building | None) -> bool:
+    if a is None or b is None:
+        return a is b
+    return all(getattr(a, one.name) is getattr(b, one.name) for one in fields(Building))
+
+
+def _snapshot() -> Snapshot:
+    state = st.session_state
+    # A copy holds the parts and none of what was computed from them.
+    own = None if state.own is None else replace(state.own)
+    return Snapshot(state.choice, own, settings().range_px)
 
 
 def set_own(own: Building) -> None:
-    """Keep a building of the student's own and choose it."""
+    """Keep a building of the student's own and show it; the settings stay."""
+    st.session_state.own = own
+    st.session_state.choice = OWN
+    forget_player()
+
+
+def open_own(own: Building) -> None:
+    """Take over a building that is new, with the range that belongs to it."""
     st.session_state.own = own
     choose(OWN)
 
@@ -26,19 +90,32 @@ def edit_building(**changes: Any) -> None:
     set_own(replace(building(), **changes))
 
 
+def set_range_to_door() -> None:
+    """Set the sensor's range to the length of the building's door."""
+    change(range_px=defaults(OWN).range_px)
+
+
 def open_project(own: Building, texts: Mapping[str, str]) -> None:
     """Take over the building and the settings of a project file."""
-    st.session_state.settings = decode(texts)
-    set_own(own)
+    open_own(own)
+    st.session_state.settings, _ = decode(texts)
+    renew_widgets()
 
 
 def attempt(action: Callable[[], None]) -> None:
     """Run an action on what the student gave; keep what they had if it fails."""
-    st.session_state.message = ""
+    state = st.session_state
+    state.message = ""
+    before = state.choice, state.own, state.settings
     try:
         action()
     except OccsimError as error:
-        st.session_state.message = str(error)
+        state.choice, state.own, state.settings = before
+        state.message = str(error)
+    except Exception:
+        LOG.exception("an action failed")
+        state.choice, state.own, state.settings = before
+        state.message = UNEXPECTED
 
 
 def message() -> str:
@@ -49,42 +126,69 @@ def message() -> str:
 def edit(action: Callable[[], None], tag: str = "") -> None:
     """Attempt an edit of the building that can be taken back.
 
-    Edits in a row with the same `tag`, such as the strokes on one board, are one.
+    Edits with the same `tag` that follow each other directly, such as the strokes on
+    one board, are one: the second began where the first ended, and nothing was taken
+    back in between.
     """
     state = st.session_state
-    before = state.choice, state.own
+    before = _snapshot()
     attempt(action)
-    if (state.choice, state.own) == before:
+    after = _snapshot()
+    if after.is_as(before):
         return
-    past = state.get("past", ())
-    if not (tag and past and past[-1][2] == tag):
-        state.past = (*past, (*before, tag))[-MAX_PAST:]
+    past = state.past
+    if tag and past and not state.future and past[-1].tag == tag:
+        last = past[-1]
+        if last.after.is_as(before):
+            before, past = last.before, past[:-1]
+    state.past = _bounded((*past, Step(before, after, tag)))
     state.future = ()
+
+
+def _bounded(past: tuple[Step, ...]) -> tuple[Step, ...]:
+    """Return the newest steps that stay within the bounds; the last one always."""
+    past = past[-MAX_PAST:]
+    while len(past) > 1 and size_of(past) > MAX_PAST_BYTES:
+        past = past[1:]
+    return past
 
 
 def can_undo() -> bool:
     """Whether an edit of the building can be taken back."""
-    return bool(st.session_state.get("past"))
+    return bool(st.session_state.past)
 
 
 def can_redo() -> bool:
     """Whether an edit that was taken back can be done again."""
-    return bool(st.session_state.get("future"))
+    return bool(st.session_state.future)
 
 
 def undo() -> None:
-    """Take the last edit of the building back."""
-    _step("past", "future")
+    """Take the last edit of the building back, if there is one."""
+    state = st.session_state
+    if not state.past:
+        return  # a click that came while the last step was being taken back
+    *past, step = state.past
+    _restore(step.after, step.before)
+    state.past, state.future = tuple(past), (*state.future, step)
 
 
 def redo() -> None:
-    """Do the edit again that was taken back last."""
-    _step("future", "past")
-
-
-def _step(source: str, target: str) -> None:
+    """Do the edit again that was taken back last, if there is one."""
     state = st.session_state
-    *state[source], (name, own, tag) = state[source]
-    state[target] = (*state.get(target, ()), (state.choice, state.own, tag))
-    state.own = own
-    choose(name)
+    if not state.future:
+        return
+    *future, step = state.future
+    _restore(step.before, step.after)
+    state.past, state.future = (*state.past, step), tuple(future)
+
+
+def _restore(left: Snapshot, entered: Snapshot) -> None:
+    """Go from one side of an edit to the other; only what it changed is changed."""
+    state = st.session_state
+    state.choice, state.own = entered.choice, entered.own
+    if left.range_px != entered.range_px:
+        change(range_px=entered.range_px)
+    state.message = ""
+    renew_widgets()
+    forget_player()

@@ -1,11 +1,18 @@
 """What the map player was last sent, and what the student chose in it."""
 
+import contextlib
+from collections.abc import Mapping
 from dataclasses import replace
 
 import streamlit as st
 
 from occsim.building import Building
-from pages._ui.components.player import SHARED, PlayerDocument
+from pages._ui.components.player import (
+    SHARED,
+    PlayerDocument,
+    decode_commit,
+    encode_document,
+)
 from pages._ui.settings import with_changes
 
 PLAYER_KEY = "map_player"
@@ -40,9 +47,38 @@ def take_from_player(document: PlayerDocument | None) -> None:
     st.session_state.played = document
 
 
+def half_way(building: Building) -> int:
+    """The step at which the player opens: the middle of the story of the building."""
+    return len(building.trajectory) // 2
+
+
 def open_half_way(building: Building) -> None:
     """Let the player open in the middle of the story of the building."""
     st.session_state.played = replace(
-        st.session_state.played, step=len(building.trajectory) // 2, pin_px=None
+        st.session_state.played, step=half_way(building), pin_px=None
     )
     forget_player()
+
+
+def place_in_replay(building: Building) -> dict[str, str]:
+    """Where the student is in the replay, as text for a link; the opening left out."""
+    played: PlayerDocument = st.session_state.played
+    texts = {} if played.step == half_way(building) else {"step": str(played.step)}
+    if played.pin_px is not None:
+        texts["pin"] = ",".join(f"{at:g}" for at in played.pin_px)
+    if played.speed is not None:
+        texts["speed"] = str(played.speed)
+    return texts
+
+
+def go_to_place(texts: Mapping[str, str]) -> None:
+    """Open the replay at the place that a link names, as far as it is one."""
+    played: PlayerDocument = st.session_state.played
+    commit = encode_document(played)
+    for name in ("step", "speed"):
+        with contextlib.suppress(ValueError):
+            commit |= {name: int(texts[name])} if name in texts else {}
+    with contextlib.suppress(ValueError):
+        if "pin" in texts:
+            commit["pin_px"] = [float(at) for at in texts["pin"].split(",")]
+    st.session_state.played = decode_commit(commit, played)

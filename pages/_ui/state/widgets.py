@@ -1,12 +1,13 @@
 """Widgets tied to what the session keeps."""
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
 import streamlit as st
 
 from pages._ui.state.chosen import change, choice, choose, settings
-from pages._ui.state.edits import edit
+from pages._ui.state.edits import attempt, edit
 from pages._ui.state.pairs import choose_pair
 
 
@@ -16,23 +17,31 @@ def bind(name: str) -> dict[str, Any]:
     The widget's own value is set from the setting before each run, so that leaving the
     page, a reset and a share link all show in it.
     """
-    key = f"control_{name}"
+    key = renewed(f"control_{name}")
     st.session_state[key] = getattr(settings(), name)
     return {"key": key, "on_change": _take, "args": (name, key)}
 
 
+def renewed(name: str) -> str:
+    """A widget's key of this generation; see `renew_widgets`."""
+    return f"{name}:{st.session_state.generation}"
+
+
 def _take(name: str, key: str) -> None:
-    change(**{name: st.session_state[key]})
+    if key == renewed(f"control_{name}") and key in st.session_state:
+        attempt(lambda: change(**{name: st.session_state[key]}))
 
 
 def bind_choice() -> dict[str, Any]:
     """Return ``key`` and ``on_change`` that tie a select box to the chosen drawing."""
-    key = "control_choice"
+    key = renewed("control_choice")
     st.session_state[key] = choice()
-    return {
-        "key": key,
-        "on_change": lambda: choose(st.session_state[key]),
-    }
+    return {"key": key, "on_change": _take_choice, "args": (key,)}
+
+
+def _take_choice(key: str) -> None:
+    if key == renewed("control_choice"):
+        attempt(lambda: choose(st.session_state.get(key, "")))
 
 
 def value(key: str) -> Any:
@@ -43,7 +52,13 @@ def value(key: str) -> Any:
 def bind_index(key: str, index: int, choose: Callable[[int], None]) -> dict[str, Any]:
     """Return ``key`` and ``on_change`` of a widget that steps through a list."""
     st.session_state[key] = index
-    return {"key": key, "on_change": lambda: choose(st.session_state[key])}
+    return {"key": key, "on_change": _take_index, "args": (key, choose)}
+
+
+def _take_index(key: str, choose: Callable[[int], None]) -> None:
+    # An index of a list that has been replaced meanwhile may lie beyond its end.
+    with contextlib.suppress(IndexError, KeyError):
+        choose(st.session_state[key])
 
 
 def bind_chart(key: str, *, of_pairs: bool = False) -> dict[str, Any]:
@@ -61,13 +76,12 @@ def bind_chart(key: str, *, of_pairs: bool = False) -> dict[str, Any]:
 
 def _take_click(key: str, of_pairs: bool) -> None:
     clicked = st.session_state.setdefault("clicked", {})
-    for point in value(key)["selection"]["points"]:
+    for point in (value(key) or {}).get("selection", {}).get("points", ()):
         place = (point["y"], point["x"]) if of_pairs else None
         clicked[key] = point.get("customdata") or place
     # A second click on a point takes its selection away: it is still the one meant.
     if clicked.get(key):
-        p_wall, p_space = clicked[key]
-        choose_pair(p_wall, p_space)
+        attempt(lambda: choose_pair(*clicked[key]))
 
 
 def view(name: str, default: Any) -> Any:
@@ -94,6 +108,8 @@ def bind_view(
 
 
 def _take_view(name: str, key: str, then: Callable[[], None] | None) -> None:
+    if key not in st.session_state:
+        return
     set_view(name, st.session_state[key])
     if then is not None:
         edit(then, tag=key)

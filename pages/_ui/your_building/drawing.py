@@ -8,7 +8,7 @@ import streamlit as st
 from occsim.building import cropped, straightened, turned
 from pages._ui import compute, state, uploads
 from pages._ui.components.board import BoardMode, BoardPoint
-from pages._ui.your_building import drawn, words
+from pages._ui.your_building import drawn, lengths
 
 KEY = "board_crop"
 LEAST_TILT_RAD = math.radians(0.15)
@@ -29,7 +29,7 @@ def show() -> None:
             "brought. More pixels show thinner walls and take longer.",
             **state.bind_view(uploads.WORKING, uploads.WORKING_PX),
         )
-        st.caption(f"{words.size()}. {state.building().about}")
+        st.caption(f"{lengths.size()}. {state.building().about}")
         with st.container(horizontal=True):
             st.button("Turn left", on_click=state.edit, args=(partial(_turn, -1),))
             st.button("Turn right", on_click=state.edit, args=(partial(_turn, 1),))

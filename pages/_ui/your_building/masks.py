@@ -7,8 +7,8 @@ import streamlit as st
 from occsim.building import CorrectedMask, empty_mask
 from occsim.io.images import class_png, mask_png
 from occsim.walls import MaskError
-from pages._ui import compute, palette, state, uploads
-from pages._ui.your_building import drawn, words
+from pages._ui import compute, palette, state, uploads, words
+from pages._ui.your_building import drawn, lengths
 
 PICTURE_PX = drawn.HEIGHT_PX - 80
 """Height of a picture with its caption in a frame as high as the board."""
@@ -33,7 +33,7 @@ def correct() -> None:
             "mask, and of nothing else."
         )
         strokes = state.building().walls.strokes
-        st.caption(words.count(len(strokes), "correction"))
+        st.caption(lengths.count(len(strokes), "correction"))
         st.button(
             "Discard all corrections",
             on_click=state.edit,

@@ -1,6 +1,7 @@
 """Section 2: two clicks across a door give the sensor's range and the scale."""
 
 import math
+from functools import partial
 
 import streamlit as st
 
@@ -8,7 +9,7 @@ from occsim.building import DOOR_WIDTH_M
 from pages._ui import state
 from pages._ui.components.board import BoardMode, BoardPoint
 from pages._ui.settings import TABLE
-from pages._ui.your_building import drawn, words
+from pages._ui.your_building import drawn, lengths
 
 KEY = "board_door"
 WIDTH = "door_width_m"
@@ -41,9 +42,12 @@ def _take(ends: tuple[BoardPoint, ...]) -> None:
     if not door_px:
         return
     scale = {"door_px": door_px, "metres_per_px": _width_m() / door_px}
-    state.edit(lambda: state.edit_building(**scale), tag=KEY)
-    bounds = TABLE["range_px"]
-    state.change(range_px=round(min(max(door_px, bounds.low), bounds.high)))
+    state.edit(partial(_measured, scale), tag=KEY)
+
+
+def _measured(scale: dict[str, float]) -> None:
+    state.edit_building(**scale)
+    state.set_range_to_door()
 
 
 def _width_m() -> float:
@@ -66,11 +70,11 @@ def _facts() -> None:
         st.info("No door measured yet: lengths are in pixels only.")
         return
     st.markdown(
-        f"Door **{words.length(building.door_px)}**  \n"
+        f"Door **{lengths.length(building.door_px)}**  \n"
         f"One pixel **{1000 * building.metres_per_px:.1f} mm**  \n"
-        f"Drawing **{words.size()}**  \n"
-        f"Range **{words.length(state.settings().range_px)}**  \n"
-        f"Cell **{words.length(state.settings().cell_px)}**"
+        f"Drawing **{lengths.size()}**  \n"
+        f"Range **{lengths.length(state.settings().range_px)}**  \n"
+        f"Cell **{lengths.length(state.settings().cell_px)}**"
     )
     bounds = TABLE["range_px"]
     if not bounds.low <= building.door_px <= bounds.high:

@@ -12,7 +12,7 @@ from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads
 from pages._ui.components.board import BoardDocument, BoardMode, BoardPoint
 from pages._ui.state import boards as kept
-from pages._ui.your_building import drawn, words
+from pages._ui.your_building import drawn, lengths
 from pages._ui.your_building.poses import poses_figure
 
 KEY = "board_path"
@@ -53,8 +53,8 @@ def show() -> None:
 def _facts() -> None:
     building = state.building()
     st.caption(
-        f"{words.count(len(building.trajectory), 'pose')} in the trajectory; "
-        f"drawing {words.size()}."
+        f"{lengths.count(len(building.trajectory), 'pose')} in the trajectory; "
+        f"drawing {lengths.size()}."
     )
 
 

@@ -1,7 +1,5 @@
 """Numbers as this page writes them: lengths with metres, shares, counts."""
 
-import math
-
 from pages._ui import state
 
 
@@ -21,11 +19,6 @@ def size() -> str:
     if metres_per_px is None:
         return text
     return f"{text} ({width * metres_per_px:.1f} × {height * metres_per_px:.1f} m)"
-
-
-def percent(share: float) -> str:
-    """A share, or a dash where it is undefined."""
-    return "–" if math.isnan(share) else f"{100 * share:.1f} %"
 
 
 def count(n: int, thing: str) -> str:

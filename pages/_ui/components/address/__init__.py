@@ -1,0 +1,47 @@
+"""The address line: it follows the student's choices; one tap copies it.
+
+One Streamlit component at the foot of every page. It replaces the address without a
+new entry in the browser's history, so that a reload, a bookmark and a copied link open
+what is on the screen, and it asks before work is left that no link can bring back.
+"""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from pages._ui.components import component
+
+FOLDER = Path(__file__).parent
+COMPONENT = "address"
+
+
+def address(
+    query: Mapping[str, str],
+    *,
+    note: str = "",
+    unsaved: bool = False,
+    has_button: bool = True,
+    key: str,
+) -> None:
+    """Keep the address line in step, and show the button that copies it.
+
+    Parameters
+    ----------
+    query : mapping of str to str
+        What the address says after the question mark.
+    note : str
+        What the link does and does not carry, shown once it has been copied.
+    unsaved : bool
+        Whether leaving the page loses something that the link does not bring back.
+    has_button : bool
+        Whether there is anything to see at all.
+    key : str
+        Key of the component.
+    """
+    data = {
+        "query": dict(query),
+        "note": note,
+        "unsaved": unsaved,
+        "hasButton": has_button,
+    }
+    component(COMPONENT, FOLDER, ("address.js",))(key=key, data=json.dumps(data))

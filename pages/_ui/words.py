@@ -1,0 +1,34 @@
+"""Numbers and names as they stand on the pages."""
+
+import re
+
+DASH = "–"
+"""Stands where a value is undefined."""
+
+SOURCE = (
+    "The source: C. Georgiou, *Constructing informative Bayesian priors to improve "
+    "SLAM map quality*, thesis, University of Sheffield; the same work as C. Georgiou, "
+    "S. Anderson and T. Dodd, *International Journal of Robotics Research* 36(3), "
+    "2017, [doi 10.1177/0278364916687027]"
+    "(https://doi.org/10.1177/0278364916687027). The drawings are ours, of the same "
+    "kinds."
+)
+"""What “the source” means, to be said once on every page that speaks of it."""
+
+
+def ranges(text: str) -> str:
+    """Pairs with ranges as the source prints them, 0.7:1, in words: 0.7 to 1."""
+    return text.replace(":", " to ")
+
+
+_MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-.!|~$:&])")
+
+
+def plain(text: str) -> str:
+    """Return a text whose Markdown and HTML say nothing: names of files, titles."""
+    return _MARKUP.sub(r"\\\1", text.replace("\n", " "))
+
+
+def percent(value: float) -> str:
+    """A share in percent; a dash where it is undefined."""
+    return DASH if value != value else f"{100 * value:.1f} %"

@@ -1,0 +1,333 @@
+"""What a session keeps: links, defaults, undo, late events, reloads, failures."""
+
+import re
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from occsim import load_sample
+from occsim.building import building_from_sample
+from pages._ui import compute, state
+from pages._ui.settings import Settings
+from pages._ui.state import chosen, edits, works
+from pages._ui.state.works import Works, size_of
+from tests.test_pages import BUILD, ROOT, control, launch, png, rooms, said, upload
+
+YOURS = "pages/2_Your_building.py"
+
+
+def opened(page=BUILD, **query):
+    """A page as a link opens it, in a session of its own."""
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    for name, text in query.items():
+        app.query_params[name] = text
+    app.switch_page(page).run()
+    assert not app.exception
+    return app
+
+
+@pytest.fixture
+def session(monkeypatch):
+    """The state of one student without pages: a plain mapping in Streamlit's place."""
+
+    class Kept(dict):
+        __getattr__ = dict.__getitem__
+        __setattr__ = dict.__setitem__
+
+    class Streamlit:
+        session_state = Kept()
+        query_params = type("Query", (), {"to_dict": lambda self: {}})()
+
+    for module in (chosen, edits, state.replay, state.widgets, state.pairs):
+        monkeypatch.setattr(module, "st", Streamlit)
+    monkeypatch.setattr(
+        chosen.compute,
+        "sample",
+        lambda name: SAMPLES.setdefault(name, building_from_sample(name)),
+    )
+    state.prepare(BUILD)
+    return Streamlit.session_state
+
+
+SAMPLES = {}
+
+
+def with_title(text):
+    return lambda: state.edit_building(title=text)
+
+
+# --- Undo -----------------------------------------------------------------------------
+
+
+def test_edits_with_one_tag_that_follow_each_other_are_one_step(session):
+    state.edit(with_title("one"), tag="board")
+    state.edit(with_title("two"), tag="board")
+    state.undo()
+    assert (session.choice, session.own) == (state.OPENING, None)
+    state.redo()
+    assert state.building().title == "two"
+
+
+def test_a_stroke_on_another_drawing_is_a_step_of_its_own(session):
+    """Stroke on b, choose a, stroke, undo: the correction of b is still there."""
+    state.edit(with_title("b corrected"), tag="board")
+    state.choose("a")
+    state.edit(with_title("a corrected"), tag="board")
+    state.undo()
+    assert session.choice == "a"
+    assert session.own.title == "b corrected"
+    state.undo()
+    assert (session.choice, session.own) == (state.OPENING, None)
+
+
+def test_what_follows_an_undo_is_not_merged_with_what_came_before(session):
+    """Stroke, discard, undo, stroke, undo: the first stroke is still there."""
+    state.edit(with_title("stroke"), tag="board")
+    state.edit(with_title("discarded"))
+    state.undo()
+    state.edit(with_title("second stroke"), tag="board")
+    state.undo()
+    assert state.building().title == "stroke"
+
+
+def test_undo_of_a_measured_door_takes_the_range_back_as_well(session):
+    def measured():
+        state.edit_building(door_px=77.0, metres_per_px=0.01)
+        state.set_range_to_door()
+
+    before = state.settings().range_px
+    state.edit(measured, tag="door")
+    assert state.settings().range_px == 77
+    state.undo()
+    assert state.settings().range_px == before
+    state.redo()
+    assert state.settings().range_px == 77
+
+
+def test_undo_leaves_settings_that_the_edit_did_not_change(session):
+    state.edit(with_title("one"))
+    state.change(range_px=123, cell_px=7)
+    state.undo()
+    assert (state.settings().range_px, state.settings().cell_px) == (123, 7)
+
+
+def test_more_undos_than_edits_do_nothing(session):
+    state.edit(with_title("one"))
+    for _ in range(3):
+        state.undo()
+    assert session.own is None
+    for _ in range(3):
+        state.redo()
+    assert session.own.title == "one"
+
+
+def test_a_failed_edit_changes_nothing_and_says_one_sentence(session):
+    def fails():
+        state.edit_building(title="half done")
+        load_sample("z")
+
+    state.edit(fails)
+    assert session.own is None
+    assert "got 'z'" in state.message()
+    assert not state.can_undo()
+
+
+@pytest.mark.provokes_errors
+def test_an_edit_that_fails_by_a_fault_of_ours_changes_nothing(
+    session, pages_log_no_error
+):
+    def fails():
+        state.edit_building(title="half done")
+        raise ZeroDivisionError
+
+    state.edit(fails)
+    assert session.own is None
+    assert state.message() == edits.UNEXPECTED
+    assert pages_log_no_error
+
+
+def test_the_history_is_bounded_in_steps_and_in_bytes(session, monkeypatch):
+    for i in range(edits.MAX_PAST + 5):
+        state.edit(with_title(str(i)))
+    assert len(session.past) == edits.MAX_PAST
+    monkeypatch.setattr(edits, "MAX_PAST_BYTES", 1)
+    state.edit(with_title("last"))
+    assert len(session.past) == 1
+
+
+def test_the_history_holds_nothing_that_was_computed(session):
+    state.edit(with_title("one"))
+    assert state.building().digest
+    state.edit(with_title("two"))
+    assert "digest" not in vars(session.past[-1].before.own)
+
+
+# --- Defaults and links ---------------------------------------------------------------
+
+
+def test_every_drawing_opens_with_the_length_of_its_doors_as_range(session):
+    for name in ("a", "d"):
+        state.choose(name)
+        assert state.settings().range_px == round(load_sample(name).sensor.range_px)
+
+
+def test_choosing_a_drawing_after_a_link_takes_the_drawings_own_range():
+    app = opened(drawing="b", range_px="60")
+    assert app.session_state["settings"].range_px == 60
+    app.selectbox(key=control(app, "choice")).select("d").run()
+    assert app.session_state["settings"].range_px == 20
+    next(button for button in app.button if button.label == "Reset all").click().run()
+    assert app.session_state["settings"].range_px == 20
+
+
+def test_a_link_says_a_range_that_is_not_the_drawings_own(session):
+    state.choose("d")
+    assert "range_px" not in state.query()
+    state.change(range_px=40)
+    assert state.query()["range_px"] == "40"
+    state.choose("b")
+    assert "range_px" not in state.query()
+
+
+def test_a_link_brings_back_settings_step_pin_and_speed():
+    app = opened(drawing="c", p_wall="0.35", step="17", pin="30.5,40.5", speed="60")
+    played = app.session_state["played"]
+    assert (played.step, played.pin_px, played.speed) == (17, (30.5, 40.5), 60)
+    assert app.session_state["settings"].p_wall == 0.35
+
+
+@pytest.mark.parametrize("place", [{"step": "x"}, {"pin": "1"}, {"speed": "7"}])
+def test_a_damaged_place_in_a_link_opens_half_way(place):
+    app = opened(drawing="c", **place)
+    played = app.session_state["played"]
+    assert played.step == len(load_sample("c").trajectory) // 2
+    assert (played.pin_px, played.speed) == (None, None)
+
+
+def test_reset_returns_to_what_the_drawing_opens_with(session):
+    state.choose("d")
+    state.change(range_px=99, p_wall=0.5)
+    state.reset_all()
+    assert state.settings() == Settings(range_px=20)
+
+
+def test_a_late_event_of_a_widget_does_not_undo_a_reset(session):
+    """The browser sends all of its old values with the first slider that is moved."""
+    bound = state.bind("p_wall")
+    state.reset_all()
+    session[bound["key"]] = 0.77
+    bound["on_change"](*bound["args"])
+    assert state.settings().p_wall == 0.2
+    fresh = state.bind("p_wall")
+    session[fresh["key"]] = 0.77
+    fresh["on_change"](*fresh["args"])
+    assert state.settings().p_wall == 0.77
+
+
+def test_the_choice_of_a_building_that_was_undone_is_not_heard(session):
+    state.edit(with_title("mine"))
+    bound = state.bind_choice()
+    state.undo()
+    session[bound["key"]] = state.OWN
+    bound["on_change"](*bound["args"])
+    state.choose(state.OWN)
+    assert session.choice == state.OPENING
+    assert state.building() is not None
+
+
+# --- Buildings of one's own over a reload ---------------------------------------------
+
+
+def test_a_reload_finds_the_building_and_the_settings_again():
+    app = upload(launch(YOURS), "Drawing", "mine.png", png(rooms()))
+    assert app.session_state["choice"] == state.OWN
+    key, _ = app.session_state["work"]
+    again = opened(YOURS, work=key, cell_px="5")
+    assert again.session_state["choice"] == state.OWN
+    assert again.session_state["own"].digest == app.session_state["own"].digest
+    assert again.session_state["settings"].cell_px == 5
+    assert not again.warning
+
+
+def test_a_link_to_a_building_that_is_gone_says_so_and_keeps_the_settings():
+    app = opened(work="nobody-has-this-key", cell_px="7")
+    assert said(app.warning) == [chosen.GONE]
+    assert app.session_state["settings"].cell_px == 7
+    assert app.session_state["choice"] == state.OPENING
+
+
+def test_who_opens_a_link_goes_on_with_a_copy(session):
+    state.edit(with_title("hers"))
+    key = state.work_key()
+    assert works.WORKS.find(key).title == "hers"
+    # Another session from the same link, then an edit there.
+    session.own, session.work = works.WORKS.find(key), None
+    state.edit(with_title("his"))
+    other = state.work_key()
+    assert other != key
+    assert works.WORKS.find(key).title == "hers"
+
+
+def test_a_building_that_is_too_large_is_not_kept():
+    mine = building_from_sample("d")
+    assert Works(max_bytes=1000).keep(mine) is None
+
+
+def test_the_store_forgets_the_oldest_when_it_is_full():
+    mine = building_from_sample("d")
+    store = Works(max_bytes=int(2.5 * size_of([mine])))
+    keys = [store.keep(mine) for _ in range(3)]
+    assert store.find(keys[0]) is None
+    assert store.find(keys[2]).digest == mine.digest
+
+
+def test_shared_parts_are_counted_once():
+    assert size_of([b"abc", "de"]) == 5
+    text = "x" * 1000
+    assert size_of([text, [text], {"a": text}]) == 1000
+
+
+# --- Failures -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "page", ["5_Sweep_the_priors", "6_Pareto_explorer", "7_Best_prior", "8_Study"]
+)
+def test_what_cannot_be_simulated_is_one_sentence_on_every_page(page):
+    """A whole turn over 300 px at 1 px cells is more than a replay can hold."""
+    app = opened(f"pages/{page}.py", cell_px="1", range_px="300", fov_deg="360")
+    assert len(app.error) <= 1
+    assert all("choose larger cells" in words for words in said(app.error))
+    assert any(button.label == "Reset all" for button in app.button)
+
+
+@pytest.mark.provokes_errors
+def test_a_failure_of_ours_leaves_the_navigation_and_a_way_back(
+    monkeypatch, pages_log_no_error
+):
+    def fails(*_):
+        raise ZeroDivisionError
+
+    app = launch(BUILD)
+    monkeypatch.setattr("pages._ui.compute.replay", fails)
+    app.run()
+    assert not app.exception
+    assert "an error in this program" in said(app.error)[0]
+    assert any(button.label == "Reset all" for button in app.button)
+    assert [text for text in pages_log_no_error if "1_Build_a_map" in text]
+
+
+def test_words_of_a_user_are_plain_text():
+    """Neither Markdown nor HTML of a file's name is rendered."""
+    name = "![x](http://evil/x.png) <b>b</b> $x$ :red[r]"
+    app = upload(launch(BUILD), "Drawing", f"{name}.png", b"no image")
+    [error] = app.error
+    assert not re.search(r"(?<!\\)[\[\]<>$:!]", error.value)
+
+
+def test_a_title_of_one_student_is_not_in_what_all_share():
+    app = upload(launch(BUILD), "Drawing", "secret name.png", png(rooms()))
+    own = app.session_state["own"]
+    assert "secret name" in own.title
+    run = compute.mapped(own, app.session_state["settings"].mapping)
+    assert "secret" not in run.building.title + run.building.drawing.name
