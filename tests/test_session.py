@@ -1,16 +1,21 @@
 """What a session keeps: links, defaults, undo, late events, reloads, failures."""
 
+import io
 import re
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from PIL import Image
 from streamlit.testing.v1 import AppTest
 
 from occsim import load_sample
 from occsim.building import building_from_sample
 from pages._ui import compute, state
 from pages._ui.settings import Settings
+from pages._ui.shared import Store, shared, size_of
 from pages._ui.state import chosen, edits, works
-from pages._ui.state.works import Works, size_of
+from pages._ui.state.works import Works
 from tests.test_pages import BUILD, ROOT, control, launch, png, rooms, said, upload
 
 YOURS = "pages/2_Your_building.py"
@@ -162,6 +167,30 @@ def test_the_history_holds_nothing_that_was_computed(session):
     assert "digest" not in vars(session.past[-1].before.own)
 
 
+def test_an_edit_that_was_cut_short_is_done_in_the_next_run(session):
+    """Streamlit stops a script by an exception that is no `Exception`."""
+
+    class Stopped(BaseException):
+        pass
+
+    times = []
+
+    def action():
+        state.edit_building(title="half")
+        times.append(len(times))
+        if len(times) == 1:
+            raise Stopped
+        state.edit_building(title="whole", about="told")
+
+    with pytest.raises(Stopped):
+        state.edit(action)
+    state.finish()
+    state.finish()
+    assert (session.own.title, times) == ("whole", [0, 1])
+    state.undo()
+    assert (session.choice, session.own) == (state.OPENING, None)
+
+
 # --- Defaults and links ---------------------------------------------------------------
 
 
@@ -287,6 +316,45 @@ def test_shared_parts_are_counted_once():
     assert size_of([text, [text], {"a": text}]) == 1000
 
 
+# --- Results that all sessions share --------------------------------------------------
+
+
+def test_a_result_is_made_once_for_all_who_ask_at_the_same_time():
+    calls = []
+
+    @shared()
+    def slow(key, _unkeyed):
+        calls.append(key)
+        time.sleep(0.05)
+        return b"result"
+
+    with ThreadPoolExecutor(8) as pool:
+        results = list(pool.map(lambda i: slow("one", i), range(8)))
+    assert results == [b"result"] * 8
+    assert calls == ["one"]
+
+
+def test_the_store_is_bounded_in_bytes_whatever_is_put_in():
+    store = Store(max_bytes=1000)
+    for i in range(50):
+        assert len(store.get(i, lambda: bytes(300))) == 300
+    assert store.n_bytes <= 1000
+    assert len(store.get("large", lambda: bytes(5000))) == 5000
+    assert store.n_bytes <= 1000
+
+
+def test_a_failure_is_not_kept_and_the_next_who_asks_tries_again():
+    store = Store()
+
+    def fails():
+        raise ZeroDivisionError
+
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError):
+            store.get("key", fails)
+    assert store.get("key", lambda: 1) == 1
+
+
 # --- Failures -------------------------------------------------------------------------
 
 
@@ -331,3 +399,31 @@ def test_a_title_of_one_student_is_not_in_what_all_share():
     assert "secret name" in own.title
     run = compute.mapped(own, app.session_state["settings"].mapping)
     assert "secret" not in run.building.title + run.building.drawing.name
+
+
+# --- Uploads belong to the drawing they were made for ---------------------------------
+
+
+def test_an_uploaded_trajectory_is_not_read_again_for_another_drawing():
+    """Plan, trajectory, choose sample a, change the angle's unit: a stays a."""
+    app = upload(launch(BUILD), "Drawing", "mine.png", png(rooms()))
+    app = upload(app, "Trajectory", "way.csv", b"x,y,theta\n50,50,0\n60,50,1\n")
+    app.selectbox(key=control(app, "choice")).select("a").run()
+    app.radio(key="view_angle_unit").set_value("Degrees").run()
+    assert app.session_state["choice"] == "a"
+    assert not app.error
+
+
+def test_the_page_of_a_pdf_is_asked_for_only_while_its_building_is_shown():
+    pages = [Image.fromarray(rooms()).convert("RGB") for _ in range(3)]
+    pdf = io.BytesIO()
+    pages[0].save(pdf, "PDF", save_all=True, append_images=pages[1:])
+    app = upload(
+        launch(BUILD), "Drawing", "mine.pdf", pdf.getvalue(), "application/pdf"
+    )
+    assert app.number_input(key="view_pdf_page").max == 3
+    app.selectbox(key=control(app, "choice")).select("a").run()
+    assert not [box for box in app.number_input if box.key == "view_pdf_page"]
+    app.selectbox(key=control(app, "choice")).select(state.OWN).run()
+    app.number_input(key="view_pdf_page").set_value(2).run()
+    assert app.session_state["choice"] == state.OWN

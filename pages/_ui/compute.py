@@ -1,9 +1,6 @@
 """The only cached functions: simulate once, keep results by digest, share the cores.
 
-Keys are digests and frozen parameters, never large arrays: Streamlit hashes those by
-sample, so that an edit of one pixel would return a stale result. Arguments with a
-leading underscore are not part of the key; their digest is. Results are never written
-to, so all sessions share one copy of them (``cache_resource``).
+Arguments with a leading underscore are not part of a key; their digest is.
 """
 
 import os
@@ -11,8 +8,6 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-
-import streamlit as st
 
 from occsim import (
     MappingRun,
@@ -51,6 +46,7 @@ from occsim.walls import (
 from pages._ui.choices import Objectives
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
+from pages._ui.shared import shared
 
 # A class of thirty students on two cores: without this each simulation would be slowed
 # by all others, and everyone would wait for the sum.
@@ -68,7 +64,7 @@ def core() -> Iterator[None]:
         yield
 
 
-@st.cache_resource(max_entries=16, show_spinner=False)
+@shared()
 def sample(name: str) -> Building:
     """A reference drawing as a building, its walls detected."""
     with core():
@@ -112,7 +108,7 @@ def mapped(building: Building, settings: MapSettings) -> MappingRun:
     return _mapped(building.digest, settings, anonymous(building))
 
 
-@st.cache_resource(max_entries=32, show_spinner="Simulating the readings")
+@shared("Simulating the readings")
 def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingRun:
     run = MappingRun(_building, settings)
     with core():
@@ -126,7 +122,7 @@ def replay(building: Building, settings: MapSettings) -> bytes:
     return _replay(building.digest, settings, building)
 
 
-@st.cache_data(max_entries=32, show_spinner="Simulating the readings")
+@shared("Simulating the readings")
 def _replay(digest: str, settings: MapSettings, _building: Building) -> bytes:
     run = mapped(_building, settings)
     with core():
@@ -224,7 +220,7 @@ def study_case(drawing: StudyDrawing, cell_px: int, of: StudySettings) -> StudyC
     return _study_case(key, cell_px, of, drawing)
 
 
-@st.cache_resource(max_entries=128, show_spinner=False)
+@shared()
 def _study_case(
     key: tuple[object, ...], cell_px: int, of: StudySettings, _drawing: StudyDrawing
 ) -> StudyCase:
@@ -240,7 +236,7 @@ def detection(drawing: Drawing, params: WallParams) -> WallDetection:
     return _detection(drawing.digest, params, drawing)
 
 
-@st.cache_resource(max_entries=8, show_spinner="Looking for walls")
+@shared("Looking for walls")
 def _detection(digest: str, params: WallParams, _drawing: Drawing) -> WallDetection:
     with core():
         return detect_walls(_drawing, params)
@@ -251,7 +247,7 @@ def stage_pictures(drawing: Drawing, params: WallParams) -> list[tuple[str, byte
     return _stage_pictures(drawing.digest, params, drawing)
 
 
-@st.cache_data(max_entries=16, show_spinner=False)
+@shared()
 def _stage_pictures(
     digest: str, params: WallParams, _drawing: Drawing
 ) -> list[tuple[str, bytes]]:
@@ -265,7 +261,7 @@ def backdrop(drawing: Drawing) -> bytes:
     return _backdrop(drawing.digest, drawing)
 
 
-@st.cache_data(max_entries=16, show_spinner=False)
+@shared()
 def _backdrop(digest: str, _drawing: Drawing) -> bytes:
     with core():
         return drawing_png(_drawing)
@@ -284,7 +280,7 @@ def tilt(drawing: Drawing) -> float | None:
     return _tilt(drawing.digest, drawing)
 
 
-@st.cache_data(max_entries=64, show_spinner=False)
+@shared()
 def _tilt(digest: str, _drawing: Drawing) -> float | None:
     with core():
         return estimate_tilt(_drawing)
@@ -295,7 +291,7 @@ def comparison(building: Building) -> MaskComparison:
     return _comparison(building.digest, building)
 
 
-@st.cache_resource(max_entries=16, show_spinner=False)
+@shared()
 def _comparison(digest: str, _building: Building) -> MaskComparison:
     with core():
         return compare_masks(_building.wall_mask, _building.world.occupied)

@@ -106,6 +106,7 @@ def page(path: str) -> Iterator[Lesson]:
     )
     st.html(CSS)
     state.prepare(path)
+    state.finish()
     _navigation(path)
     if state.link_notice(path):
         st.warning(state.link_notice(path))

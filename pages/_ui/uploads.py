@@ -4,6 +4,7 @@ Every upload is checked before anything is kept; what is refused changes nothing
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -19,7 +20,7 @@ TRAJECTORY_TYPES = ["csv", "txt", "npy", "mat", "json", "tum"]
 MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
-PAGE = "pdf_page"
+PAGE, PDF = "pdf_page", "pdf"
 DRAWINGS = "drawings_taken"
 
 
@@ -36,16 +37,16 @@ def panel() -> None:
 
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
-    file = _uploader(
+    _uploader(
         "Drawing", key, IMAGE_TYPES, _map_drawing, "Image or PDF, up to 40 megapixels."
     )
-    n_pages = state.view("pdf_pages", 0)
-    if file is not None and n_pages > 1:
+    pdf = state.view(PDF, None)
+    if pdf is not None and pdf.is_shown:
         st.number_input(
-            f"Page (of {n_pages})",
+            f"Page (of {pdf.n_pages})",
             1,
-            n_pages,
-            **state.bind_view(PAGE, 1, partial(_map_page, key)),
+            pdf.n_pages,
+            **state.bind_view(PAGE, 1, _map_page),
         )
 
 
@@ -80,8 +81,8 @@ def trajectory(key: str) -> None:
 
 
 def _of_this_drawing(key: str) -> str:
-    """A key that is new with each drawing: no file for the last one is shown."""
-    return f"{key}_{state.view(DRAWINGS, 0)}"
+    """A key that is new with each drawing: no file for another one is shown or read."""
+    return f"{key}_{state.choice()}_{state.view(DRAWINGS, 0)}"
 
 
 def _uploader(
@@ -105,18 +106,40 @@ def _take(key: str, use: Callable[[Any], None]) -> None:
         state.edit(partial(use, file))
 
 
+@dataclass(frozen=True, eq=False)
+class Pdf:
+    """A PDF of several pages, and the drawing that one of them was made into."""
+
+    name: str
+    data: bytes
+    n_pages: int
+    drawing_digest: str
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the building on the page is the one that came from this file."""
+        return (
+            self.n_pages > 1
+            and state.choice() == state.OWN
+            and state.building().drawing.digest == self.drawing_digest
+        )
+
+
 def _map_drawing(file: Any) -> None:
-    state.set_view(PAGE, 1)
     data = file.getvalue()
-    state.set_view("pdf_pages", pdf_page_count(data) if is_pdf(data) else 0)
+    n_pages = pdf_page_count(data) if is_pdf(data) else 0
     _map(load_drawing(data, name=file.name))
+    state.set_view(PAGE, 1)
+    digest = state.building().drawing.digest
+    state.set_view(PDF, Pdf(file.name, data, n_pages, digest) if n_pages > 1 else None)
 
 
-def _map_page(key: str) -> None:
-    file = state.value(key)
-    if file is not None:
-        page = int(state.view(PAGE, 1))
-        _map(load_pdf_page(file.getvalue(), page, name=file.name))
+def _map_page() -> None:
+    pdf = state.view(PDF, None)
+    if pdf is not None and pdf.is_shown:
+        _map(load_pdf_page(pdf.data, int(state.view(PAGE, 1)), name=pdf.name))
+        digest = state.building().drawing.digest
+        state.set_view(PDF, replace(pdf, drawing_digest=digest))
 
 
 def _map(loaded: Drawing) -> None:

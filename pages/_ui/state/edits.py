@@ -10,6 +10,7 @@ import streamlit as st
 from occsim import OccsimError
 from occsim.building import Building
 from pages._ui.settings import decode
+from pages._ui.shared import size_of
 from pages._ui.state.chosen import (
     OWN,
     building,
@@ -20,7 +21,6 @@ from pages._ui.state.chosen import (
     settings,
 )
 from pages._ui.state.replay import forget_player
-from pages._ui.state.works import size_of
 
 LOG = logging.getLogger(__name__)
 MAX_PAST = 50
@@ -129,7 +129,27 @@ def edit(action: Callable[[], None], tag: str = "") -> None:
     Edits with the same `tag` that follow each other directly, such as the strokes on
     one board, are one: the second began where the first ended, and nothing was taken
     back in between.
+
+    The next click may stop a script at any look at the session's state, also in a
+    callback: what was begun is noted, and done again by `finish` in the next run.
     """
+    state = st.session_state
+    state.unfinished = _snapshot(), action, tag
+    _edit(action, tag)
+    state.unfinished = None
+
+
+def finish() -> None:
+    """Do the edit again that the last run was stopped in, if there is one."""
+    state = st.session_state
+    if state.get("unfinished") is None:
+        return
+    before, action, tag = state.unfinished
+    state.choice, state.own = before.choice, before.own
+    edit(action, tag)
+
+
+def _edit(action: Callable[[], None], tag: str) -> None:
     state = st.session_state
     before = _snapshot()
     attempt(action)

@@ -8,41 +8,16 @@ link with the key sees the building and goes on with a copy of it.
 import dataclasses
 import secrets
 import threading
-from collections.abc import Iterable
-from typing import Any
 
 from cachetools import TTLCache
 
 from occsim.building import Building
+from pages._ui.shared import size_of
 
 MAX_BYTES = 600_000_000
 """All buildings together; the one that was kept longest ago goes first."""
 MAX_AGE_S = 24 * 3600
 """How long a building is kept after its last change."""
-
-
-def size_of(parts: Iterable[object]) -> int:
-    """Return the bytes of all arrays and texts in some objects, shared ones once."""
-    seen: set[int] = set()
-    total, todo = 0, list(parts)
-    while todo:
-        part: Any = todo.pop()
-        if id(part) in seen:
-            continue
-        seen.add(id(part))
-        if isinstance(part, (bytes, str)):
-            total += len(part)
-        elif hasattr(part, "nbytes"):
-            total += part.nbytes
-        elif isinstance(part, dict):
-            todo += part.values()
-        elif isinstance(part, (list, tuple)):
-            todo += part
-        elif dataclasses.is_dataclass(part):
-            todo += [getattr(part, one.name) for one in dataclasses.fields(part)]
-            # What was computed from the fields and remembered.
-            todo += getattr(part, "__dict__", {}).values()
-    return total
 
 
 class Works:
