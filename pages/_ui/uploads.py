@@ -20,7 +20,7 @@ TRAJECTORY_TYPES = ["csv", "txt", "npy", "mat", "json", "tum"]
 MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
-PAGE, PDF = "pdf_page", "pdf"
+PAGE, PDF, POSES = "pdf_page", "pdf", "pose_file"
 DRAWINGS = "drawings_taken"
 
 
@@ -76,7 +76,7 @@ def trajectory(key: str) -> None:
         "Angles in the file",
         list(UNITS),
         horizontal=True,
-        **state.bind_view("angle_unit", "As the file says", partial(_again, key)),
+        **state.bind_view("angle_unit", "As the file says", _read_poses),
     )
 
 
@@ -155,18 +155,29 @@ def _use_truth(file: Any) -> None:
     state.edit_building(truth=truth_from_image(image, shape))
 
 
-def _again(key: str) -> None:
-    """Read the trajectory's file again, its angles in another unit."""
-    file = state.value(key)
-    if file is not None:
-        _use_trajectory(file)
+@dataclass(frozen=True, eq=False)
+class PoseFile:
+    """The trajectory file that was given last, and the drawing it was given for."""
+
+    name: str
+    data: bytes
+    drawing_digest: str
 
 
 def _use_trajectory(file: Any) -> None:
+    digest = state.building().drawing.digest
+    state.set_view(POSES, PoseFile(file.name, file.getvalue(), digest))
+    _read_poses()
+
+
+def _read_poses() -> None:
+    """Read the last trajectory file, its angles in the chosen unit."""
+    file = state.view(POSES, None)
+    if file is None or file.drawing_digest != state.building().drawing.digest:
+        return
     unit = UNITS[state.view("angle_unit", "As the file says")]
-    state.edit_building(
-        trajectory=load_trajectory(file.getvalue(), name=file.name, degrees=unit)
-    )
+    trajectory = load_trajectory(file.data, name=file.name, degrees=unit)
+    state.edit_building(trajectory=trajectory)
 
 
 def pose_notice() -> None:
