@@ -31,8 +31,10 @@ def control(app, name):
 
 
 def said(elements):
-    """What a page says in its errors, warnings or infos, without the escapes."""
-    return [re.sub(r"\\(.)", r"\1", one.value) for one in elements]
+    """What a page says, without the escapes and the marks of mathematics."""
+    symbol = re.compile(r"\$([pl])_(?:\\text\{(\w+)\}|(0))\$")
+    plain = [symbol.sub(r"\1_\2\3", one.value) for one in elements]
+    return [re.sub(r"\\(.)", r"\1", text) for text in plain]
 
 
 def png(image):

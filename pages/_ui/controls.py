@@ -5,7 +5,7 @@ from typing import Literal
 
 import streamlit as st
 
-from pages._ui import state
+from pages._ui import state, words
 from pages._ui.choices import CHOICES
 from pages._ui.settings import TABLE
 
@@ -22,11 +22,11 @@ def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     whole = isinstance(getattr(state.settings(), name), int)
     number = int if whole else float
     st.slider(
-        setting.label + _unit(name),
+        words.maths(setting.label) + _unit(name),
         number(setting.low),
         number(setting.high),
         step=number(setting.step),
-        help=setting.help,
+        help=words.maths(setting.help),
         width=width,
         **state.bind(name),
     )
@@ -43,7 +43,11 @@ def _unit(name: str) -> str:
 
 def toggle(name: str) -> None:
     """Draw the switch of a setting that is on or off."""
-    st.toggle(TABLE[name].label, help=TABLE[name].help, **state.bind(name))
+    st.toggle(
+        TABLE[name].label,
+        help=words.maths(TABLE[name].help),
+        **state.bind(name),
+    )
 
 
 def radio(name: str) -> None:
@@ -53,7 +57,7 @@ def radio(name: str) -> None:
         TABLE[name].label,
         options,
         format_func=CHOICES.__getitem__,
-        help=TABLE[name].help,
+        help=words.maths(TABLE[name].help),
         **state.bind(name),
     )
 
@@ -65,7 +69,7 @@ def segments(name: str) -> None:
         TABLE[name].label,
         options,
         format_func=CHOICES.__getitem__,
-        help=TABLE[name].help,
+        help=words.maths(TABLE[name].help),
         required=True,
         **state.bind(name),
     )
@@ -78,7 +82,7 @@ def select(name: str, width: int | Literal["stretch"] = "stretch") -> None:
         TABLE[name].label,
         options,
         format_func=CHOICES.__getitem__,
-        help=TABLE[name].help,
+        help=words.maths(TABLE[name].help),
         width=width,
         **state.bind(name),
     )
@@ -88,11 +92,11 @@ def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     """Draw the box of a whole number."""
     setting = TABLE[name]
     st.number_input(
-        setting.label,
+        words.maths(setting.label),
         int(setting.low),
         int(setting.high),
         step=int(setting.step),
-        help=setting.help,
+        help=words.maths(setting.help),
         width=width,
         **state.bind(name),
     )

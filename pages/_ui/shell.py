@@ -72,12 +72,20 @@ LESSONS = (
 # screen has to hold the whole instrument at 1280 x 720.
 CSS = """
 <style>
-.stMainBlockContainer { padding: 0.75rem 2rem 2rem; max-width: 1600px; }
+.stMainBlockContainer { padding: 0.75rem 2rem 2rem; max-width: 2200px; }
 [data-testid="stHeader"] { display: none; }
 [data-testid="stVerticalBlock"] { gap: 0.5rem; }
 .stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
 /* As high as a select box, so that neighbours and their labels stand level. */
 [data-testid="stButtonGroup"] > div button { min-height: 2.5rem; }
+/* Captions are read, not skipped: Streamlit's 0.6 is a contrast of 3.9. */
+[data-testid="stCaptionContainer"] { opacity: 0.8; }
+/* The page one is on is the clearest item, not the dimmest. */
+.st-key-lessons a[disabled], .st-key-lessons a[disabled] * {
+    color: inherit; opacity: 1; font-weight: 700;
+}
+.st-key-lessons a[disabled] { box-shadow: inset 0 -2px currentColor; }
+.st-key-lessons a:focus-visible { outline: 2px solid currentColor; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */

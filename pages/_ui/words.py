@@ -16,6 +16,26 @@ SOURCE = (
 """What “the source” means, to be said once on every page that speaks of it."""
 
 
+_SYMBOLS = {
+    "p_wall": r"p_\text{wall}",
+    "p_space": r"p_\text{space}",
+    "p_free": r"p_\text{free}",
+    "l_0": "l_0",
+}
+
+
+def maths(text: str) -> str:
+    """Return Markdown in which the names of the model's quantities are mathematics."""
+    for name, symbol in _SYMBOLS.items():
+        text = re.sub(rf"\b{name}\b", lambda _, symbol=symbol: f"${symbol}$", text)
+    return text
+
+
+def chart(text: str) -> str:
+    """The same for a chart, which takes no mathematics: letters and subscripts."""
+    return re.sub(r"\b([pl])_(wall|space|free|0)\b", r"<i>\1</i><sub>\2</sub>", text)
+
+
 def ranges(text: str) -> str:
     """Pairs with ranges as the source prints them, 0.7:1, in words: 0.7 to 1."""
     return text.replace(":", " to ")

@@ -8,7 +8,7 @@ from plotly.colors import sample_colorscale
 
 from occsim.prior import SOURCE_PAIR
 from occsim.priors import ParetoFront
-from pages._ui import palette
+from pages._ui import palette, words
 from pages._ui.choices import FrontAxes
 from pages._ui.priors.fronts import scores_at
 from pages._ui.priors.surface_figures import (
@@ -105,8 +105,9 @@ def front_points(front: ParetoFront, axes: FrontAxes, min_recall: float) -> go.S
         unselected={"marker": {"opacity": 1}},
         name="its points",
         hovertemplate=(
-            "%{text}<br>p_wall %{customdata[0]:.3g}, p_space %{customdata[1]:.3g}"
-            "<extra></extra>"
+            "%{text}<br>"
+            + words.chart("p_wall %{customdata[0]:.3g}, p_space %{customdata[1]:.3g}")
+            + "<extra></extra>"
         ),
         showlegend=False,
     )
@@ -119,8 +120,8 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
     line = {"color": mark.color if is_ring else "black", "width": 3 if is_ring else 1}
     size = 17 if is_ring else 13
     marker = {"symbol": mark.symbol, "size": size, "color": mark.color, "line": line}
-    words = f"{mark.name}<br>precision {100 * mark.precision:.1f} %, "
-    words += f"recall {100 * mark.recall:.1f} %<extra></extra>"
+    about = f"{mark.name}<br>precision {100 * mark.precision:.1f} %, "
+    about += f"recall {100 * mark.recall:.1f} %<extra></extra>"
     return go.Scatter(
         x=[x],
         y=[y],
@@ -132,7 +133,7 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
         unselected={"marker": {"opacity": 1}},
         # A ring lies around its point and must leave the pointer to it.
         hoverinfo="skip" if is_ring else None,
-        hovertemplate=None if is_ring else words,
+        hovertemplate=None if is_ring else about,
         cliponaxis=False,
     )
 
@@ -142,12 +143,12 @@ def threshold(figure: go.Figure, axes: FrontAxes, min_recall: float) -> None:
     if min_recall <= 0.0:
         return
     x, y = place(axes, 1.0, min_recall)
-    words = {"text": f"set C: recall > {min_recall:.2f}", "font_size": 11}
+    note = {"text": f"set C: recall > {min_recall:.2f}", "font_size": 11}
     line = {"dash": "dot", "width": 1, "color": palette.GUIDE}
     if axes is FrontAxes.SCORES:
-        figure.add_vline(x, line=line, annotation=words)
+        figure.add_vline(x, line=line, annotation=note)
     else:
-        figure.add_hline(y, line=line, annotation=words)
+        figure.add_hline(y, line=line, annotation=note)
 
 
 def frame_front(
@@ -187,7 +188,9 @@ def prior_space_figure(
             selected={"marker": {"opacity": 1}},
             unselected={"marker": {"opacity": 1}},
             name="front",
-            hovertemplate="p_wall %{y:.3g}, p_space %{x:.3g}<extra></extra>",
+            hovertemplate=words.chart(
+                "p_wall %{y:.3g}, p_space %{x:.3g}<extra></extra>"
+            ),
         )
     )
     figure.add_traces(pair_marks([], chosen))
@@ -296,8 +299,8 @@ def region_figure(
         )
     )
     figure.add_traces(pair_marks([], chosen))
-    words = [f"near {n} of {n_drawings} fronts" for row in count.tolist() for n in row]
-    figure.add_trace(pair_targets(values, words))
+    near = [f"near {n} of {n_drawings} fronts" for row in count.tolist() for n in row]
+    figure.add_trace(pair_targets(values, near))
     half = (values[1] - values[0]) / 2
     square_axes_of(figure, LOW - half, HIGH + half)
     figure.update_layout(

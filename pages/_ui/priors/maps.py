@@ -3,13 +3,13 @@
 import streamlit as st
 
 from occsim import Prior, Scores
-from pages._ui import state
+from pages._ui import state, words
 from pages._ui.choices import Picture
 from pages._ui.runs import Run
 from pages._ui.words import DASH, percent
 
 LEGENDS = {
-    Picture.BELIEF: "White is free, black is occupied, grey is unknown.",
+    Picture.BELIEF: "White is free, black is occupied; greys are less certain.",
     Picture.ERRORS: "Black: wall found. Orange: false wall. Blue: missed wall. "
     "Hatched: not scored.",
     Picture.CHANGE: "Orange: more occupied than without the drawing. Blue: more free.",
@@ -55,7 +55,7 @@ def chosen_map(run: Run) -> None:
 
 def map_of(run: Run, prior: Prior, title: str, kind: Picture) -> None:
     """One map with its title and its scores."""
-    st.markdown(f"**{title}**")
+    st.markdown(f"**{words.maths(title)}**")
     st.image(
         run.picture(prior, kind),
         width="stretch",
@@ -70,5 +70,5 @@ def against_uninformative(run: Run, prior: Prior) -> None:
         st.caption("The map without a drawing.")
         return
     reference = run.scores(Prior.uninformative())
-    words = difference_line(run.scores(prior), reference)
-    st.caption(f"Against the uninformative map, in points: {words}.")
+    change = difference_line(run.scores(prior), reference)
+    st.caption(f"Against the uninformative map, in points: {change}.")

@@ -30,7 +30,7 @@ COLUMNS = {
     "cells": "cells, px",
     "drawing": "drawing",
     "ours": "ours, %",
-    "ours_at": "at (p_wall, p_space)",
+    "ours_at": words.maths("at (p_wall, p_space)"),
     "published": "published, %",
     "published_at": "published at",
 }
@@ -89,7 +89,8 @@ def findings(cases: list[StudyCase]) -> None:
         st.markdown(
             "**How to read this.** The source's five drawings are not ours to use: "
             "these are of the same kinds, so only the pattern can be compared. In the "
-            "source, recall peaks with p_space = 1, precision with a low p_space, and "
+            f"source, recall peaks with {words.maths('p_space')} = 1, precision with a "
+            f"low {words.maths('p_space')}, and "
             "no pair has both."
         )
 

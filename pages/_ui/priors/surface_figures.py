@@ -6,11 +6,12 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
 from occsim.prior import SOURCE_PAIR
-from pages._ui import palette
+from pages._ui import palette, words
 from pages._ui.choices import Surface
 from pages._ui.priors.surfaces import HIGH, LOW, SurfaceView
 
 Pair = tuple[float, float]
+P_WALL, P_SPACE = words.chart("p_wall"), words.chart("p_space")
 SURFACE_PX = 400
 ROW_PX = 250
 ROW_GAP_PX = 56
@@ -113,8 +114,8 @@ def rows_figure(
             axes["range"] = [low, high]
             figure.update_xaxes(**axes, **at)
             figure.update_yaxes(scaleanchor=anchor, **axes, **at)
-    figure.update_xaxes(title_text="p_space", row=len(rows))
-    figure.update_yaxes(title_text="p_wall", col=1)
+    figure.update_xaxes(title_text=P_SPACE, row=len(rows))
+    figure.update_yaxes(title_text=P_WALL, col=1)
     figure.update_annotations(font_size=12)
     figure.update_layout(
         height=ROW_PX * len(rows) + 160,
@@ -182,21 +183,23 @@ def _mark(pairs: list[Pair], name: str, marker: dict) -> go.Scatter:
 
 def target_layer(view: SurfaceView) -> go.Scatter:
     """What of a surface can be pointed at and clicked."""
-    values, words = view.targets()
-    return pair_targets(values, [f"{view.objective.value} {text}" for text in words])
+    values, texts = view.targets()
+    return pair_targets(values, [f"{view.objective.value} {text}" for text in texts])
 
 
-def pair_targets(values: list[float], words: list[str]) -> go.Scatter:
+def pair_targets(values: list[float], texts: list[str]) -> go.Scatter:
     """Invisible points over a heatmap, row by row: it cannot be clicked itself."""
     return go.Scatter(
         x=values * len(values),
         y=[p_wall for p_wall in values for _ in values],
-        text=words,
+        text=texts,
         mode="markers",
         marker={"opacity": 0, "size": 6},
         selected={"marker": {"opacity": 0}},
         unselected={"marker": {"opacity": 0}},
-        hovertemplate="p_wall %{y:.2f}<br>p_space %{x:.2f}<br>%{text}<extra></extra>",
+        hovertemplate=words.chart(
+            "p_wall %{y:.2f}<br>p_space %{x:.2f}<br>%{text}<extra></extra>"
+        ),
         showlegend=False,
     )
 
@@ -214,9 +217,12 @@ def square_axes_of(figure: go.Figure, low: float, high: float) -> None:
     """p_space to the right and p_wall up, one as long as the other."""
     shared = {"constrain": "domain", "zeroline": False, "title_standoff": 4}
     shared |= {"range": [low, high], "fixedrange": True, "tickvals": TICKS, "ticks": ""}
-    figure.update_xaxes(title_text="p_space", constraintoward="left", **shared)
+    figure.update_xaxes(title_text=P_SPACE, constraintoward="left", **shared)
     figure.update_yaxes(
-        title_text="p_wall", constraintoward="top", scaleanchor="x", **shared
+        title_text=P_WALL,
+        constraintoward="top",
+        scaleanchor="x",
+        **shared,
     )
 
 

@@ -91,7 +91,7 @@ def sizes(run: Run) -> None:
 
 def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
     """Where the source's 10 x 10 pairs are best, with all ties, as a table."""
-    lines = [f"| {heading} | Score | Maximum | at (p_wall, p_space) |"]
+    lines = [words.maths(f"| {heading} | Score | Maximum | at (p_wall, p_space) |")]
     lines.append("|---|---|---|---|")
     for name, run in runs.items():
         for which in Objective:
@@ -137,5 +137,5 @@ def explain(run: Run) -> None:
     st.markdown(
         "**Why so fast?** What a reading says does not depend on the prior, so the "
         f"{run.evidence.n_readings} readings are simulated once. Wall cells then "
-        "answer to p_wall alone and all others to p_space alone."
+        f"answer to {words.maths('p_wall alone and all others to p_space alone')}."
     )
