@@ -23,14 +23,15 @@ def chromium():
         yield browser
 
 
-def _error_text(line) -> list[str]:
+def error_text(line) -> list[str]:
     """What a console line complains of; Streamlit's probes for its base path aside.
 
     On a deep link its client first asks for the health of a server below that path,
     and the browser logs the 404 of that question.
     """
     probe = "404" in line.text and "_stcore" in line.location.get("url", "")
-    return [line.text] if line.type == "error" and not probe else []
+    where = line.location.get("url", "")
+    return [f"{line.text} {where}"] if line.type == "error" and not probe else []
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def page(chromium):
     window.set_default_timeout(30_000)
     errors: list[str] = []
     window.on("pageerror", lambda error: errors.append(str(error)))
-    window.on("console", lambda line: errors.extend(_error_text(line)))
+    window.on("console", lambda line: errors.extend(error_text(line)))
     yield window
     with contextlib.suppress(Error):  # the browser may be gone already
         context.close()

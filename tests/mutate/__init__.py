@@ -1,0 +1,1 @@
+"""Kept mutations: small faults that the tests must notice."""

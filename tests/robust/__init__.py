@@ -1,0 +1,1 @@
+"""What no input and no speed of clicking may do."""
