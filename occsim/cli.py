@@ -1,36 +1,41 @@
-"""The command line: ``python -m occsim study [DRAWING ...]``."""
+"""The command line: ``occsim``, or ``python -m occsim``."""
 
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from enum import Enum
 from pathlib import Path
 
+from occsim import __version__
 from occsim.errors import OccsimError, ParameterError
-from occsim.io.images import png
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
 from occsim.samples import sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.study import (
     StudyCase,
-    StudyDrawing,
     StudySettings,
-    case_path,
-    case_settings,
     fronts_csv,
-    fronts_picture,
-    load_case,
-    maps_picture,
     maxima_csv,
     maxima_text,
     pattern_text,
-    run_case,
-    save_case,
+    save_figures,
+    study_cases,
     study_drawing,
     sweeps_csv,
 )
 from occsim.study.published import SOURCE_CELLS_PX
+
+PROG = "occsim"
+
+_CHOICES: tuple[tuple[str, Enum, str], ...] = (
+    # The study repeats the source, which took the prior off at every reading.
+    ("--rule", UpdateRule.SUBTRACT_PRIOR, "how a reading enters the map"),
+    ("--region", Region.EXPLORED, "which cells are scored"),
+    ("--behind-hit", BehindHit.OCCUPIED, "what is said of pixels behind a wall"),
+)
+"""Options of the study that take a member of an enum: name, default, help."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -49,44 +54,48 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = _parser().parse_args(arguments)
     try:
-        _study(options)
+        options.run(options)
     except BrokenPipeError:
-        # Whoever read the output has had enough (``| head``): no error. What Python
-        # still holds back must go somewhere at exit, or it complains.
+        # The reader closed the pipe (``| head``): no error. What Python still holds
+        # back must go somewhere at exit, or it complains.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + 13  # SIGPIPE, a name that Windows lacks
     except OccsimError as error:
-        print(f"{_PROG}: {error}", file=sys.stderr)
-        return 2
+        return _refuse(str(error))
     except OSError as error:
-        print(
-            f"{_PROG}: {error.filename} cannot be used ({error.strerror})",
-            file=sys.stderr,
-        )
-        return 2
+        return _refuse(f"{error.filename} cannot be used ({error.strerror})")
     except KeyboardInterrupt:
         print("\nStopped; the same command goes on from here.", file=sys.stderr)
         return 130
     return 0
 
 
-_PROG = "python -m occsim"
+def _refuse(sentence: str) -> int:
+    print(f"{PROG}: {sentence}", file=sys.stderr)
+    return 2
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog=_PROG,
+        prog=PROG,
         description="Occupancy grid mapping with informative priors: which prior is "
         "best, for several drawings and cell sizes.",
     )
+    parser.add_argument("--version", action="version", version=f"{PROG} {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
     study = commands.add_parser(
         "study",
         help="sweep the priors of drawings at several cell sizes",
         description="Sweep the priors and find the exact Pareto front of drawings at "
-        "several cell sizes; write tables, fronts and pictures. Cases that the folder "
+        "several cell sizes; write tables, fronts and figures. Cases that the folder "
         "already holds under the same settings are not computed again.",
     )
+    _add_study_arguments(study)
+    study.set_defaults(run=_study)
+    return parser
+
+
+def _add_study_arguments(study: argparse.ArgumentParser) -> None:
     study.add_argument(
         "drawings",
         metavar="DRAWING",
@@ -94,13 +103,14 @@ def _parser() -> argparse.ArgumentParser:
         help=f"a sample ({', '.join(sample_names())}) or an image file, whose detected "
         "walls then serve as the world; all samples by default",
     )
+    sizes = list(SOURCE_CELLS_PX)
     study.add_argument(
         "--cells",
         type=int,
         nargs="+",
         metavar="PX",
-        default=list(SOURCE_CELLS_PX),
-        help="cell sizes, px (3 5 10)",
+        default=sizes,
+        help=f"cell sizes, px ({' '.join(map(str, sizes))})",
     )
     study.add_argument(
         "--out", type=Path, default=Path("study"), help="folder to write to (study)"
@@ -108,74 +118,44 @@ def _parser() -> argparse.ArgumentParser:
     study.add_argument(
         "--range-px", type=float, default=20.0, help="reach for image files, px (20)"
     )
-    for name, kind, words in (
-        ("--rule", UpdateRule, "how a reading enters the map"),
-        ("--region", Region, "which cells are scored"),
-        ("--behind-hit", BehindHit, "what is said of pixels behind a wall"),
-    ):
-        values = [choice.value for choice in kind]
-        study.add_argument(
-            name,
-            choices=values,
-            default=values[0],
-            help=f"{words} ({values[0]})",
-        )
-    return parser
+    for name, default, words in _CHOICES:
+        values = [choice.value for choice in type(default)]
+        help_text = f"{words} ({default.value})"
+        study.add_argument(name, choices=values, default=default.value, help=help_text)
 
 
 def _study(options: argparse.Namespace) -> None:
+    out: Path = options.out
+    cases = list(_cases(options, out / "cases"))
+    _write_tables(out, cases)
+    try:
+        save_figures(out, cases)
+    except ImportError as error:
+        print(f"{PROG}: no figures: {error}", file=sys.stderr)
+    tables = f"{maxima_text(cases)}\n\n{pattern_text(cases)}"
+    print(f"\n{tables}\n\nWritten to {out}", flush=True)
+
+
+def _cases(options: argparse.Namespace, folder: Path) -> Iterator[StudyCase]:
     settings = StudySettings(
         rule=UpdateRule(options.rule),
         region=Region(options.region),
         behind_hit=BehindHit(options.behind_hit),
     )
-    out: Path = options.out
     cells: list[int] = sorted(set(options.cells))
     if cells[0] < 1:
         raise ParameterError(f"--cells must be 1 px or more; got {cells[0]}")
-    drawings = _drawings(options.drawings, Sensor(range_px=options.range_px))
-    (out / "cases").mkdir(parents=True, exist_ok=True)
-    pairs = [(drawing, cell_px) for drawing in drawings for cell_px in cells]
-    cases = []
-    for done, (drawing, cell_px) in enumerate(pairs, start=1):
-        case, known = _case(drawing, cell_px, settings, out / "cases")
-        cases.append(case)
-        how = "kept" if known else "computed"
-        print(f"[{done}/{len(pairs)}] {drawing.name}, {cell_px} px: {how}", flush=True)
-    _write(out, cases)
-    tables = f"{maxima_text(cases)}\n\n{pattern_text(cases)}"
-    print(f"\n{tables}\n\nWritten to {out}", flush=True)
+    sensor = Sensor(range_px=options.range_px)
+    sources = dict.fromkeys(options.drawings or sample_names())
+    drawings = [study_drawing(source, sensor) for source in sources]
+    folder.mkdir(parents=True, exist_ok=True)
+    for case, done, total, is_kept in study_cases(drawings, cells, settings, folder):
+        how = "kept" if is_kept else "computed"
+        print(f"[{done}/{total}] {case.name}, {case.cell_px} px: {how}", flush=True)
+        yield case
 
 
-def _drawings(sources: Sequence[str], sensor: Sensor) -> list[StudyDrawing]:
-    drawings = [
-        study_drawing(source, sensor)
-        for source in dict.fromkeys(sources or sample_names())
-    ]
-    names = [drawing.name for drawing in drawings]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        raise ParameterError(
-            f"drawings must differ in name; got {', '.join(twice)} more than once"
-        )
-    return drawings
-
-
-def _case(
-    drawing: StudyDrawing, cell_px: int, settings: StudySettings, folder: Path
-) -> tuple[StudyCase, bool]:
-    # The case, and whether the folder already held it.
-    described = case_settings(drawing, cell_px, settings)
-    path = case_path(folder, described)
-    known = load_case(path, described)
-    if known is not None:
-        return known, True
-    case = run_case(drawing, cell_px, settings)
-    save_case(path, case, described)
-    return case, False
-
-
-def _write(out: Path, cases: Sequence[StudyCase]) -> None:
+def _write_tables(out: Path, cases: Sequence[StudyCase]) -> None:
     tables = {
         "maxima.csv": maxima_csv(cases),
         "fronts.csv": fronts_csv(cases),
@@ -184,7 +164,3 @@ def _write(out: Path, cases: Sequence[StudyCase]) -> None:
     }
     for name, text in tables.items():
         (out / name).write_text(text, encoding="utf-8")
-    for cell_px in sorted({case.cell_px for case in cases}):
-        same = [case for case in cases if case.cell_px == cell_px]
-        (out / f"maps_{cell_px}px.png").write_bytes(png(maps_picture(same)))
-        (out / f"fronts_{cell_px}px.png").write_bytes(png(fronts_picture(same)))

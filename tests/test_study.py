@@ -10,7 +10,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from occsim import Drawing, ParameterError, Sensor, Trajectory, UpdateRule
+from occsim import (
+    Drawing,
+    ParameterError,
+    Scores,
+    Sensor,
+    Trajectory,
+    UpdateRule,
+    __version__,
+)
 from occsim.building import Building, CorrectedMask
 from occsim.cli import main
 from occsim.io.images import mask_png, png
@@ -22,16 +30,16 @@ from occsim.study import (
     case_path,
     case_settings,
     fronts_csv,
-    fronts_picture,
+    fronts_figure,
     load_case,
-    maps_picture,
+    maps_figure,
     maxima_csv,
     maxima_text,
     pattern,
     pattern_text,
     run_case,
-    run_study,
     save_case,
+    study_cases,
     study_drawing,
     sweeps_csv,
 )
@@ -57,33 +65,56 @@ def drawing_of(walls, name="room", poses=((30, 30, 0.0), (40, 30, 1.5), (40, 30,
     return StudyDrawing(name, building, Sensor(range_px=40.0, fov_rad=1.0))
 
 
-def case_of(tp, fp, fn, name="x", cell_px=3):
+def case_of(tp, fp, fn, name="x", cell_px=3, is_reference=False):
     """A case with given counts at the 10 x 10 pairs, by (row, column) or everywhere."""
     tp, fp, fn = (np.broadcast_to(x, (10, 10)).astype(np.int64) for x in (tp, fp, fn))
     sweep = PriorSweep(AXIS, AXIS, tp=tp, fp=fp, fn=fn, tn=np.zeros_like(tp))
     front = ParetoFront(*(np.array([0.5]) for _ in range(4)))
-    return StudyCase(name, cell_px, sweep, front)
+    return StudyCase(name, cell_px, sweep, front, Scores(1, 1, 1, 0), is_reference)
 
 
 @pytest.fixture(scope="module")
 def cases():
-    return run_study([drawing_of(room())], cells=(5, 10))
+    return [step.case for step in study_cases([drawing_of(room())], (5, 10))]
 
 
 def test_a_study_is_every_drawing_at_every_cell_size():
-    calls = []
     drawings = [drawing_of(room(), "one"), drawing_of(room(), "two")]
-    found = run_study(
-        drawings, cells=(10, 20), on_progress=lambda *done: calls.append(done)
-    )
-    assert [(case.name, case.cell_px) for case in found] == [
+    steps = list(study_cases(drawings, (10, 20)))
+    assert [(step.case.name, step.case.cell_px) for step in steps] == [
         ("one", 10),
         ("one", 20),
         ("two", 10),
         ("two", 20),
     ]
-    assert calls == [(1, 4), (2, 4), (3, 4), (4, 4)]
-    assert found[0].sweep.precision.shape == (10, 10)
+    assert [step.done for step in steps] == [1, 2, 3, 4]
+    assert {(step.total, step.is_kept) for step in steps} == {(4, False)}
+    assert steps[0].case.sweep.precision.shape == (10, 10)
+
+
+def test_a_study_goes_on_where_it_stopped(tmp_path):
+    drawing, cells = drawing_of(room()), (5, 10)
+    next(study_cases([drawing], cells, folder=tmp_path))
+    steps = list(study_cases([drawing], cells, folder=tmp_path))
+    assert [step.is_kept for step in steps] == [True, False]
+    changed = StudySettings(rule=UpdateRule.PRIOR_ONCE)
+    steps = list(study_cases([drawing], cells, changed, tmp_path))
+    assert not any(step.is_kept for step in steps)
+
+
+def test_a_case_holds_the_scores_without_a_drawing(cases):
+    """With a prior of one half the update rule and the drawing's walls are nothing."""
+    bare = drawing_of(room())
+    blank = Building(
+        drawing=bare.building.drawing,
+        walls=CorrectedMask(np.zeros((60, 80), dtype=bool)),
+        truth=CorrectedMask(room()),
+        trajectory=bare.building.trajectory,
+    )
+    once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
+    found = run_case(StudyDrawing("blank", blank, bare.sensor), 5, once)
+    assert found.blank == cases[0].blank
+    assert found.blank.tp > 0
 
 
 def test_the_front_is_as_good_as_the_sweep(cases):
@@ -126,8 +157,8 @@ def test_a_study_without_a_hit_is_told_as_it_is(walls, poses):
     assert pattern(found).n_cases == 0
     assert "–" in maxima_text(found)
     assert fronts_csv(found).count("\n") == 1
-    assert maps_picture(found).shape == (274, 540, 3)
-    assert fronts_picture(found).shape[2] == 3
+    assert "undefined" in maps_figure(found).axes[0].get_title()
+    fronts_figure(found).savefig(io.BytesIO())
 
 
 def test_pattern_of_three_cases_by_hand():
@@ -162,11 +193,24 @@ def test_published_maxima_stand_beside_those_of_the_samples():
     assert published_maximum(Objective.RECALL, 5, "e") == (88.68, "(0.9:1, 1)")
     assert published_maximum(Objective.RECALL, 4, "a") is None
     assert published_maximum(Objective.RECALL, 3, "room") is None
-    rows = list(csv.DictReader(io.StringIO(maxima_csv([case_of(3, 1, 1, name="d")]))))
+    case = case_of(3, 1, 1, name="d", is_reference=True)
+    rows = list(csv.DictReader(io.StringIO(maxima_csv([case]))))
     assert rows[0]["percent"] == "75.0"
     assert rows[0]["pairs"] == "(0.1:1, 0.1:1)"
     assert rows[0]["published_percent"] == "95.56"
     assert rows[1]["published_pairs"] == "(0.7:1, 1)"
+
+
+def test_published_maxima_stand_only_beside_true_samples():
+    """An own drawing called "d", and sample d with its walls changed, are others."""
+    assert study_drawing("d").is_reference
+    sample = study_drawing("d")
+    blank = CorrectedMask(np.zeros(sample.building.world.shape, dtype=bool))
+    moved = replace(sample.building, walls=blank)
+    for own in (drawing_of(room(), name="d"), replace(sample, building=moved)):
+        assert not own.is_reference
+        rows = list(csv.DictReader(io.StringIO(maxima_csv([run_case(own, 3)]))))
+        assert [row["published_percent"] for row in rows] == ["", ""]
 
 
 def test_undefined_figures_are_empty_in_csv():
@@ -246,16 +290,96 @@ def test_a_damaged_case_is_computed_again(tmp_path, cases, damage):
     assert load_case(path, described) is None
 
 
-def test_pictures_show_every_case(cases):
-    maps = maps_picture(cases)
-    assert maps.dtype == np.uint8
-    assert maps.shape == (2 * 274, 540, 3)
-    # Both panels of both rows are coloured, not white or grey.
-    for top, left in ((130, 150), (404, 420)):
-        assert np.ptp(maps[top, left].astype(int)) > 0
-    assert (fronts_picture(cases) != fronts_picture(cases[:1])).any()
+def lines_of(ax):
+    """What is marked in a plot: label and points, (x, y) a row."""
+    return {line.get_label(): line.get_xydata() for line in ax.lines}
+
+
+def test_maps_show_precision_and_recall_of_every_case(cases):
+    axes = maps_figure(cases).axes
+    maps, bars = axes[:4], axes[4:]
+    titles = [ax.get_title().split(":")[0] for ax in maps]
+    assert titles == ["room, 5 px cells"] * 2 + ["room, 10 px cells"] * 2
+    assert [bar.get_ylabel() for bar in bars] == ["precision, %", "recall, %"] * 2
+    case, lines = cases[0], lines_of(maps[1])
+    best = np.stack((case.recall.p_wall, case.recall.p_space), axis=1)
+    np.testing.assert_array_equal(lines["largest values"], best)
+    front = np.stack((case.front.p_wall, case.front.p_space), axis=1)
+    np.testing.assert_array_equal(lines["exact front"], front)
+    np.testing.assert_array_equal(
+        lines["the source's choice, (0.2, 0.9)"], [[0.2, 0.9]]
+    )
+
+
+def test_colours_of_a_map_are_the_sweeps_values_upright():
+    """p_wall to the right and p_space upwards: precision 1, but 0.2 at (1, 0.1)."""
+    tp, fp = np.full((10, 10), 4), np.zeros((10, 10))
+    tp[9, 0], fp[9, 0] = 1, 4
+    (image,) = maps_figure([case_of(tp, fp, 1)]).axes[0].images
+    values, origin = np.asarray(image.get_array()), image.origin
+    assert origin == "lower"
+    assert tuple(image.get_extent()) == (0.1, 1.0, 0.1, 1.0)
+    assert values[0, -1] == pytest.approx(20.0)
+    assert values[0, 0] == values[-1, -1] == values[-1, 0] == pytest.approx(100.0)
+
+
+def test_fronts_are_drawn_with_the_source_and_without_a_drawing():
+    """The front of `case_of` is the point (0.5, 0.5), (2, 2) in the plot; the sweep
+    has precision 3/4 and recall 3/5 everywhere, so also at the source's pair; without
+    a drawing both scores are one half."""
+    ax = fronts_figure([case_of(3, 1, 2, name="cost_$x$")]).axes[0]
+    name, points, star, blank = (line.get_xydata() for line in ax.lines[:4])
+    np.testing.assert_array_equal(points, [[2.0, 2.0]])
+    np.testing.assert_array_equal(name, points)
+    np.testing.assert_allclose(star, [[4 / 3, 5 / 3]])
+    np.testing.assert_array_equal(blank, [[2.0, 2.0]])
+    assert r"cost_\$x\$, 3 px cells" in lines_of(ax)
+    assert ax.get_xlabel().startswith("1/precision")
+    assert ax.get_ylabel().startswith("1/recall")
+
+
+def test_the_border_of_a_front_turns_where_both_scores_are_worse():
+    """Of (1/precision, 1/recall) = (1, 2) and (2, 1): by way of (2, 2)."""
+    case = case_of(1, 1, 1)
+    front = ParetoFront(*np.array([[0.5, 0.5], [0.5, 0.5], [0.5, 1.0], [1.0, 0.5]]))
+    case = replace(case, front=front)
+    border = fronts_figure([case]).axes[0].lines[0]
+    assert border.get_drawstyle() == "steps-post"
+    np.testing.assert_array_equal(border.get_xydata(), [[1.0, 2.0], [2.0, 1.0]])
+
+
+def test_a_figure_of_nothing_is_refused():
     with pytest.raises(ParameterError, match="at least one case"):
-        maps_picture([])
+        maps_figure([])
+
+
+def test_without_matplotlib_the_command_writes_tables_and_says_so(
+    tmp_path, capsys, monkeypatch
+):
+    for name in ("matplotlib", "matplotlib.figure"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert main(["study", "d", "--cells", "50", "--out", str(tmp_path)]) == 0
+    assert capsys.readouterr().err == (
+        "occsim: no figures: a figure needs matplotlib: pip install 'occsim[study]'\n"
+    )
+    assert (tmp_path / "maxima.csv").is_file()
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_the_study_takes_the_prior_off_at_every_reading_unless_told_otherwise(tmp_path):
+    """As in the source, whatever the default of the library's maps is."""
+    assert main(["study", "d", "--cells", "50", "--out", str(tmp_path)]) == 0
+    (kept,) = (tmp_path / "cases").iterdir()
+    settings = json.loads(kept.read_text(encoding="utf-8"))["settings"]
+    assert settings["rule"] == "subtract_prior"
+    assert settings["region"] == "explored"
+    assert settings["behind_hit"] == "occupied"
+
+
+def test_the_command_says_its_version(capsys):
+    with pytest.raises(SystemExit, match="0"):
+        main(["--version"])
+    assert capsys.readouterr().out == f"occsim {__version__}\n"
 
 
 def test_the_command_writes_resumes_and_says_so(tmp_path, capsys):
@@ -297,7 +421,7 @@ def test_a_folder_that_is_a_file_gets_one_sentence(tmp_path, capsys):
     file.touch()
     assert main(["study", "a", "--cells", "100", "--out", str(file)]) == 2
     captured = capsys.readouterr()
-    assert re.fullmatch(r"python -m occsim: \S+ cannot be used \(.+\)\n", captured.err)
+    assert re.fullmatch(r"occsim: \S+ cannot be used \(.+\)\n", captured.err)
 
 
 def test_a_reader_that_goes_away_ends_the_command_quietly(tmp_path):

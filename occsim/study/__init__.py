@@ -1,7 +1,14 @@
 """Studies: drawings times cell sizes, as tables, fronts, files and pictures."""
 
-from occsim.study.figures import fronts_picture, maps_picture
-from occsim.study.files import case_path, case_settings, load_case, save_case
+from occsim.study.figures import fronts_figure, maps_figure, save_figures
+from occsim.study.files import (
+    StudyStep,
+    case_path,
+    case_settings,
+    load_case,
+    save_case,
+    study_cases,
+)
 from occsim.study.run import (
     Pattern,
     StudyCase,
@@ -9,7 +16,6 @@ from occsim.study.run import (
     StudySettings,
     pattern,
     run_case,
-    run_study,
     study_drawing,
 )
 from occsim.study.tables import (
@@ -31,21 +37,23 @@ __all__ = [
     "StudyCase",
     "StudyDrawing",
     "StudySettings",
+    "StudyStep",
     "case_path",
     "case_settings",
     "front_rows",
     "fronts_csv",
-    "fronts_picture",
+    "fronts_figure",
     "load_case",
-    "maps_picture",
+    "maps_figure",
     "maxima_csv",
     "maxima_rows",
     "maxima_text",
     "pattern",
     "pattern_text",
     "run_case",
-    "run_study",
     "save_case",
+    "save_figures",
+    "study_cases",
     "study_drawing",
     "sweeps_csv",
 ]

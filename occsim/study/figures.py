@@ -1,45 +1,42 @@
-"""Pictures of a study, drawn plainly: colour maps (Fig. 4.5) and fronts (Fig. 4.7)."""
+"""Figures of a study: colour maps (Fig. 4.5) and fronts (Fig. 4.7), by matplotlib."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-import cv2
 import numpy as np
 
-from occsim._types import ByteArray, FloatArray
+from occsim._extras import needs_extra
+from occsim._types import FloatArray
 from occsim.errors import ParameterError
-from occsim.priors import Maxima, Objective, ParetoFront, PriorSweep, interpolate
+from occsim.prior import SOURCE_PAIR
+from occsim.priors import MIN_RECALL, Objective, interpolate
 from occsim.study.run import StudyCase
 
-MAP_PX = 200
-"""Side of a colour map, px."""
-LEFT_PX, TOP_PX, RIGHT_PX, BOTTOM_PX = 50, 30, 20, 44
-"""Room around a plot for labels, px."""
-PLOT_PX = 420
-"""Side of the plot of fronts, px."""
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-_INK = (40, 40, 40)
-_UNDEFINED = (205, 205, 205)
-# Okabe and Ito's colours, told apart by colour-blind readers too; red first.
-_COLOURS = (
-    (0, 114, 178),
-    (213, 94, 0),
-    (0, 158, 115),
-    (204, 121, 167),
-    (86, 180, 233),
-    (230, 159, 0),
-)
-_MARKERS = (
-    cv2.MARKER_CROSS,
-    cv2.MARKER_SQUARE,
-    cv2.MARKER_TRIANGLE_UP,
-    cv2.MARKER_DIAMOND,
-    cv2.MARKER_TILTED_CROSS,
-    cv2.MARKER_TRIANGLE_DOWN,
-)
+MAP_POINTS = 200
+"""Values across a colour map."""
+WORST = 4.0
+"""Largest 1/precision and 1/recall of a plot of fronts. A front may reach recalls near
+0, beside which the rest would be one point."""
+DPI = 120
+
+# Okabe and Ito's colours: distinguishable with all common colour vision deficiencies.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
+_MARKERS = "osD^vP"
+_DASHES = ("-", "--", "-.", ":")
+_SOURCE = f"the source's choice, {SOURCE_PAIR}"
+_STAR: dict[str, Any] = {"marker": "*", "ms": 13, "mec": "black", "ls": ""}
+_BLANK: dict[str, Any] = {"marker": "X", "ms": 8, "mec": "black", "ls": ""}
 
 
-def maps_picture(cases: Sequence[StudyCase]) -> ByteArray:
-    """Return the colour maps of precision and recall, a row a case (Fig. 4.5).
+def maps_figure(cases: Sequence[StudyCase]) -> Figure:
+    """Return colour maps of precision and recall, a row a case (Fig. 4.5).
 
     Parameters
     ----------
@@ -48,25 +45,29 @@ def maps_picture(cases: Sequence[StudyCase]) -> ByteArray:
 
     Returns
     -------
-    ndarray of uint8, shape (H, W, 3)
-        p_wall to the right, p_space upwards, bilinearly interpolated as in the source;
-        the largest values yellow. White dots: the maxima. Black dots: pairs of the
-        exact front. Grey: undefined.
+    matplotlib.figure.Figure
+        p_wall to the right, p_space upwards; colours in percent, bilinearly
+        interpolated as in the source, grey where undefined. Marked are the maxima of
+        the sweep, the pairs of the exact front and the source's choice.
 
     Raises
     ------
     ParameterError
         Where there is no case.
+    ImportError
+        Where matplotlib is not installed.
     """
-    _require_some(cases)
-    rows = [
-        np.hstack([_map_panel(case, objective) for objective in Objective])
-        for case in cases
-    ]
-    return np.asarray(np.vstack(rows), dtype=np.uint8)
+    figure = _figure(cases, width=9.0, height=3.4 * len(cases) + 0.4)
+    axes = figure.subplots(len(cases), 2, squeeze=False)
+    for case, row in zip(cases, axes, strict=True):
+        for ax, objective in zip(row, Objective, strict=True):
+            _draw_map(ax, case, objective)
+    handles, names = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside upper center", ncols=3, frameon=False)
+    return figure
 
 
-def fronts_picture(cases: Sequence[StudyCase]) -> ByteArray:
+def fronts_figure(cases: Sequence[StudyCase]) -> Figure:
     """Return the exact fronts of several cases in one plot (Fig. 4.7).
 
     Parameters
@@ -76,151 +77,160 @@ def fronts_picture(cases: Sequence[StudyCase]) -> ByteArray:
 
     Returns
     -------
-    ndarray of uint8, shape (H, W, 3)
-        1/precision to the right, 1/recall upwards, both to be minimised.
+    matplotlib.figure.Figure
+        1/precision to the right, 1/recall upwards, both to be minimised; second axes
+        in percent. A line borders what each front attains. Marked, in the colour of
+        the front: the source's choice and the map without a drawing.
 
     Raises
     ------
     ParameterError
         Where there is no case.
+    ImportError
+        Where matplotlib is not installed.
     """
-    _require_some(cases)
-    points = np.concatenate([case.front.objectives for case in cases])
-    # A front may reach recalls near 0; beyond 4 the plot would show nothing else.
-    top = np.clip(points.max(axis=0, initial=1.0), 1.2, 4.0)
-    canvas = _canvas(PLOT_PX)
-    _axes(canvas, PLOT_PX, ((1.0, float(top[0])), (1.0, float(top[1]))))
-    _axis_names(canvas, PLOT_PX, "1/precision", "1/recall")
+    figure = _figure(cases, width=8.0, height=6.0)
+    ax = figure.subplots()
     for i, case in enumerate(cases):
-        colour, marker = _COLOURS[i % len(_COLOURS)], _MARKERS[i % len(_MARKERS)]
-        _draw_front(canvas, case.front, top, colour, marker)
-        at = (LEFT_PX + PLOT_PX - 110, TOP_PX + 20 + 18 * i)
-        cv2.drawMarker(canvas, (at[0] - 12, at[1] - 4), colour, marker, 8, 1)
-        _text(canvas, f"{case.name[:10]}, {case.cell_px} px", at)
-    return canvas
+        _draw_front(ax, case, _COLOURS[i % 6], _MARKERS[i % 6], _DASHES[i // 6 % 4])
+    ax.plot([], [], color="0.7", label=_SOURCE, **_STAR)
+    ax.plot([], [], color="0.7", label="no drawing (prior of one half)", **_BLANK)
+    _frame_fronts(ax, cases)
+    figure.legend(loc="outside right upper", frameon=False)
+    return figure
 
 
-def _require_some(cases: Sequence[StudyCase]) -> None:
+def save_figures(folder: Path, cases: Sequence[StudyCase]) -> list[Path]:
+    """Write both figures of every cell size as PNG.
+
+    Parameters
+    ----------
+    folder : Path
+        An existing folder.
+    cases : sequence of StudyCase
+        At least one.
+
+    Returns
+    -------
+    list of Path
+        ``maps_3px.png``, ``fronts_3px.png`` and so on, by cell size.
+
+    Raises
+    ------
+    ParameterError, ImportError
+        As in `maps_figure`.
+    """
+    paths = []
+    for cell_px in sorted({case.cell_px for case in cases}):
+        same = [case for case in cases if case.cell_px == cell_px]
+        for name, draw in (("maps", maps_figure), ("fronts", fronts_figure)):
+            path = folder / f"{name}_{cell_px}px.png"
+            draw(same).savefig(path, dpi=DPI)
+            paths.append(path)
+    return paths
+
+
+def _figure(cases: Sequence[StudyCase], width: float, height: float) -> Figure:
     if not cases:
-        raise ParameterError("a picture needs at least one case; got none")
+        raise ParameterError("a figure needs at least one case; got none")
+    with needs_extra("study", "a figure"):
+        # Not pyplot: it keeps every figure and looks for a screen.
+        from matplotlib.figure import Figure
+    return Figure(figsize=(width, height), layout="constrained")
 
 
-def _canvas(side_px: int) -> ByteArray:
-    shape = (TOP_PX + side_px + BOTTOM_PX, LEFT_PX + side_px + RIGHT_PX, 3)
-    return np.full(shape, 255, dtype=np.uint8)
+def _draw_map(ax: Axes, case: StudyCase, objective: Objective) -> None:
+    best, front = case.maxima(objective), case.front
+    _draw_colours(ax, case, objective)
+    # Pairs on the border of the map are shown whole.
+    rings = ax.plot(best.p_wall, best.p_space, "wo", mec="k", label="largest values")
+    dots = ax.plot(front.p_wall, front.p_space, "k.", label="exact front")
+    for line in rings + dots:
+        line.set_clip_on(False)
+    ax.plot(*SOURCE_PAIR, color=_COLOURS[1], label=_SOURCE, **_STAR)
+    top = "undefined" if np.isnan(best.value) else f"up to {100 * best.value:.1f} %"
+    ax.set_title(_plain(f"{case.name}, {case.cell_px} px cells: {top}"), fontsize=10)
+    ax.set(xlabel=r"$p_\mathrm{wall}$", ylabel=r"$p_\mathrm{space}$")
 
 
-def _map_panel(case: StudyCase, objective: Objective) -> ByteArray:
-    canvas, sweep = _canvas(MAP_PX), case.sweep
-    ends = (
-        (float(sweep.p_wall[0]), float(sweep.p_wall[-1])),
-        (float(sweep.p_space[0]), float(sweep.p_space[-1])),
+def _draw_colours(ax: Axes, case: StudyCase, objective: Objective) -> None:
+    from matplotlib import colormaps
+
+    axes = case.sweep.p_wall, case.sweep.p_space
+    across, up = (np.linspace(axis[0], axis[-1], MAP_POINTS) for axis in axes)
+    values = interpolate(case.sweep, across[None, :], up[:, None], objective)
+    low, high = _limits(100.0 * values)
+    image = ax.imshow(
+        100.0 * values,
+        extent=(across[0], across[-1], up[0], up[-1]),
+        origin="lower",
+        cmap=colormaps["cividis"].with_extremes(bad="0.8"),
+        vmin=low,
+        vmax=high,
     )
-    best = case.maxima(objective)
-    inside = (
-        slice(TOP_PX, TOP_PX + MAP_PX),
-        slice(LEFT_PX, LEFT_PX + MAP_PX),
-    )
-    canvas[inside] = _colour_map(sweep, objective)
-    _axes(canvas, MAP_PX, ends)
-    _axis_names(canvas, MAP_PX, "p_wall", "p_space")
-    _dots(canvas, ends, case.front.p_wall, case.front.p_space, 2, (0, 0, 0))
-    _dots(canvas, ends, best.p_wall, best.p_space, 3, (255, 255, 255))
-    title = f"{case.name[:14]}, {case.cell_px} px: {objective.value} {_range(best)}"
-    _text(canvas, title, (LEFT_PX - 30, TOP_PX - 10))
-    return canvas
+    bar = ax.figure.colorbar(image, ax=ax, label=f"{objective.value}, %")
+    bar.ax.ticklabel_format(useOffset=False)
 
 
-def _range(best: Maxima) -> str:
-    return "undefined" if np.isnan(best.value) else f"to {100 * best.value:.1f} %"
-
-
-def _colour_map(sweep: PriorSweep, objective: Objective) -> ByteArray:
-    across = np.linspace(sweep.p_wall[0], sweep.p_wall[-1], MAP_PX)
-    up = np.linspace(sweep.p_space[-1], sweep.p_space[0], MAP_PX)
-    values = interpolate(sweep, across[None, :], up[:, None], objective)
-    undefined = np.isnan(values)
-    if undefined.all():
-        return np.full((MAP_PX, MAP_PX, 3), _UNDEFINED, dtype=np.uint8)
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    # A flat map has no range to spread; it is drawn as high throughout.
-    share = (values - low) / (high - low) if high > low else np.ones_like(values)
-    levels = np.rint(255.0 * np.where(undefined, 0.0, share)).astype(np.uint8)
-    colours = cv2.applyColorMap(levels, cv2.COLORMAP_CIVIDIS)[:, :, ::-1]
-    return np.where(undefined[..., None], _UNDEFINED, colours).astype(np.uint8)
-
-
-def _dots(
-    canvas: ByteArray,
-    ends: tuple[tuple[float, float], tuple[float, float]],
-    p_wall: FloatArray,
-    p_space: FloatArray,
-    radius: int,
-    colour: tuple[int, int, int],
-) -> None:
-    for pair in zip(p_wall.tolist(), p_space.tolist(), strict=True):
-        at = _place(pair, ends, MAP_PX)
-        cv2.circle(canvas, at, radius + 1, _INK, -1, cv2.LINE_AA)
-        cv2.circle(canvas, at, radius, colour, -1, cv2.LINE_AA)
+def _limits(values: FloatArray) -> tuple[float, float]:
+    # A flat or undefined map has no range of its own to spread.
+    defined = values[~np.isnan(values)]
+    if not defined.size:
+        return 0.0, 100.0
+    low, high = float(defined.min()), float(defined.max())
+    return (low, high) if high > low else (low - 0.5, high + 0.5)
 
 
 def _draw_front(
-    canvas: ByteArray,
-    front: ParetoFront,
-    top: FloatArray,
-    colour: tuple[int, int, int],
-    marker: int,
+    ax: Axes, case: StudyCase, colour: str, marker: str, dashes: str
 ) -> None:
-    ends = ((1.0, float(top[0])), (1.0, float(top[1])))
-    shown = front.objectives[(front.objectives <= top).all(axis=1)]
-    places = [_place((x, y), ends, PLOT_PX) for x, y in shown.tolist()]
-    for (x0, y0), (x1, y1) in zip(places, places[1:], strict=False):
-        # The edge of what the front dominates turns where both are at their worse.
-        corner = (max(x0, x1), min(y0, y1))
-        cv2.line(canvas, (x0, y0), corner, colour, 1, cv2.LINE_AA)
-        cv2.line(canvas, corner, (x1, y1), colour, 1, cv2.LINE_AA)
-    for place in places:
-        cv2.drawMarker(canvas, place, colour, marker, 8, 1, cv2.LINE_AA)
+    points = case.front.objectives
+    x, y = points[np.lexsort((-points[:, 1], points[:, 0]))].T
+    # Between two points nothing better is attained: the border turns where both are
+    # at their worse.
+    ax.step(x, y, where="post", color=colour, ls=dashes, lw=1.2, alpha=0.7)
+    name = _plain(f"{case.name}, {case.cell_px} px cells")
+    ax.plot(x, y, marker, color=colour, markersize=5, label=name)
+    for mark, place in zip((_STAR, _BLANK), _marks(case), strict=True):
+        ax.plot(*place, color=colour, **mark)
 
 
-def _place(
-    point: tuple[float, float],
-    ends: tuple[tuple[float, float], tuple[float, float]],
-    side_px: int,
-) -> tuple[int, int]:
-    (x0, x1), (y0, y1) = ends
-    x = LEFT_PX + (point[0] - x0) / (x1 - x0) * (side_px - 1)
-    y = TOP_PX + (y1 - point[1]) / (y1 - y0) * (side_px - 1)
-    return round(x), round(y)
+def _marks(case: StudyCase) -> FloatArray:
+    """Return 1/precision and 1/recall of the source's pair and without a drawing.
+
+    Shape (2, 2); NaN where a score is 0 or undefined, or the pair was not swept.
+    """
+    sweep, scores = case.sweep, np.full((2, 2), np.nan)
+    here = np.ix_(sweep.p_wall == SOURCE_PAIR[0], sweep.p_space == SOURCE_PAIR[1])
+    if sweep.tp[here].size:
+        scores[0] = sweep.precision[here].item(), sweep.recall[here].item()
+    scores[1] = case.blank.precision, case.blank.recall
+    return 1.0 / np.where(scores > 0.0, scores, np.nan)
 
 
-def _axes(
-    canvas: ByteArray,
-    side_px: int,
-    ends: tuple[tuple[float, float], tuple[float, float]],
-) -> None:
-    right, bottom = LEFT_PX + side_px - 1, TOP_PX + side_px - 1
-    cv2.rectangle(canvas, (LEFT_PX, TOP_PX), (right, bottom), _INK, 1)
-    for share in (0.0, 0.5, 1.0):
-        x, y = (low + share * (high - low) for low, high in ends)
-        at_x, at_y = _place((x, y), ends, side_px)
-        cv2.line(canvas, (at_x, bottom), (at_x, bottom + 4), _INK, 1)
-        cv2.line(canvas, (LEFT_PX - 4, at_y), (LEFT_PX, at_y), _INK, 1)
-        _text(canvas, f"{x:.2f}", (at_x - 13, bottom + 17))
-        _text(canvas, f"{y:.2f}", (LEFT_PX - 36, at_y + 4))
+def _frame_fronts(ax: Axes, cases: Sequence[StudyCase]) -> None:
+    shown = [array for c in cases for array in (c.front.objectives, _marks(c))]
+    points = np.concatenate(shown)
+    largest = np.nanmax(np.where(points <= WORST, points, np.nan), axis=0, initial=1.1)
+    right, top = (1.0 + 1.05 * (largest - 1.0)).tolist()
+    ax.set(xlim=(0.99, right), ylim=(0.99, top))
+    ax.set(xlabel="1/precision (1 is perfect)", ylabel="1/recall (1 is perfect)")
+    percent = (_percent, _percent)
+    ax.secondary_xaxis("top", functions=percent).set_xlabel("precision, %")
+    ax.secondary_yaxis("right", functions=percent).set_ylabel("recall, %")
+    if top > 1.0 / MIN_RECALL:
+        words = f"set C: recall above {100 * MIN_RECALL:g} %"
+        ax.axhline(1.0 / MIN_RECALL, color="0.5", ls=":", label=words)
+    ax.grid(color="0.9")
+    ax.set_axisbelow(True)
 
 
-def _axis_names(canvas: ByteArray, side_px: int, across: str, up: str) -> None:
-    _text(canvas, across, (LEFT_PX + side_px // 2 - 25, TOP_PX + side_px + 34))
-    side = np.full((14, 90, 3), 255, dtype=np.uint8)
-    _text(side, up, (2, 11))
-    # Read from the bottom up, at the left edge.
-    turned = np.rot90(side)[: canvas.shape[0]]
-    first = TOP_PX + side_px // 4 - 30
-    canvas[first : first + 90, 0:14] = turned
+def _percent(value: Any) -> Any:
+    # Its own inverse; matplotlib tries it at 0 too.
+    with np.errstate(divide="ignore"):
+        return 100.0 / np.asarray(value, dtype=np.float64)
 
 
-def _text(canvas: ByteArray, text: str, at: tuple[int, int]) -> None:
-    # OpenCV's fonts know ASCII only.
-    plain = text.encode("ascii", "replace").decode()
-    cv2.putText(canvas, plain, at, cv2.FONT_HERSHEY_SIMPLEX, 0.38, _INK, 1, cv2.LINE_AA)
+def _plain(text: str) -> str:
+    # Names of files are shown as they are: no mathematics between dollar signs.
+    return text.replace("$", r"\$")

@@ -4,23 +4,108 @@ import hashlib
 import json
 import os
 import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
 
 from occsim._types import FloatArray
+from occsim.errors import ParameterError
+from occsim.metrics import Scores
 from occsim.priors import ParetoFront, PriorSweep
-from occsim.study.run import StudyCase, StudyDrawing, StudySettings
+from occsim.study.run import StudyCase, StudyDrawing, StudySettings, run_case
 
 FORMAT = "occsim study case"
-VERSION = 1
+VERSION = 2
 
 _COUNTS = ("tp", "fp", "fn", "tn")
 _POINTS = ("p_wall", "p_space", "precision", "recall")
+
+
+class StudyStep(NamedTuple):
+    """A case of a study as it comes, and how far the study is."""
+
+    case: StudyCase
+    done: int
+    """Cases so far, this one included."""
+    total: int
+    is_kept: bool
+    """Whether the folder held it already."""
+
+
+def study_cases(
+    drawings: Iterable[StudyDrawing],
+    cells: Sequence[int],
+    settings: StudySettings | None = None,
+    folder: Path | None = None,
+) -> Iterator[StudyStep]:
+    """Yield every drawing at every cell size, the drawings in turn.
+
+    Parameters
+    ----------
+    drawings : iterable of StudyDrawing
+        Of different names.
+    cells : sequence of int
+        Cell sizes, px.
+    settings : StudySettings, optional
+        The source's by default.
+    folder : Path, optional
+        An existing folder: cases that it holds under the same settings are read, the
+        others are computed and saved there, so that a study can go on where it stopped.
+
+    Yields
+    ------
+    StudyStep
+
+    Raises
+    ------
+    ParameterError
+        Where two drawings have one name or a cell size lies outside its domain.
+    TrajectoryError
+        Where no pose of a drawing stands in free space.
+
+    Examples
+    --------
+    >>> from occsim.study import study_cases, study_drawing
+    >>> steps = study_cases([study_drawing("d")], cells=(5, 10))
+    >>> [(step.case.name, step.case.cell_px, step.done, step.total) for step in steps]
+    [('d', 5, 1, 2), ('d', 10, 2, 2)]
+    """
+    settings = settings or StudySettings()
+    drawings = list(drawings)
+    _require_different_names(drawings)
+    pairs = [(drawing, cell_px) for drawing in drawings for cell_px in cells]
+    for done, (drawing, cell_px) in enumerate(pairs, start=1):
+        case, is_kept = _kept_or_run(drawing, cell_px, settings, folder)
+        yield StudyStep(case, done, len(pairs), is_kept)
+
+
+def _require_different_names(drawings: Sequence[StudyDrawing]) -> None:
+    names = [drawing.name for drawing in drawings]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ParameterError(
+            f"drawings must differ in name; got {', '.join(twice)} more than once"
+        )
+
+
+def _kept_or_run(
+    drawing: StudyDrawing, cell_px: int, settings: StudySettings, folder: Path | None
+) -> tuple[StudyCase, bool]:
+    if folder is None:
+        return run_case(drawing, cell_px, settings), False
+    described = case_settings(drawing, cell_px, settings)
+    path = case_path(folder, described)
+    kept = load_case(path, described)
+    if kept is not None:
+        return kept, True
+    case = run_case(drawing, cell_px, settings)
+    save_case(path, case, described)
+    return case, False
 
 
 def case_settings(
@@ -56,6 +141,7 @@ def case_settings(
         "drawing": {
             "name": drawing.name,
             "digest": drawing.building.digest,
+            "is_reference": drawing.is_reference,
             "n_poses": len(drawing.building.valid_trajectory()),
         },
         "sensor": _plain(drawing.sensor),
@@ -103,6 +189,7 @@ def save_case(path: Path, case: StudyCase, described: dict[str, Any]) -> None:
         | {"p_wall": sweep.p_wall.tolist(), "p_space": sweep.p_space.tolist()},
         "front": {name: getattr(front, name).tolist() for name in _POINTS}
         | {"rectangles": None if bounds is None else bounds.tolist()},
+        "blank": {name: getattr(case.blank, name) for name in _COUNTS},
     }
     partial = path.with_suffix(".part")
     partial.write_text(
@@ -140,6 +227,8 @@ def _case(document: dict[str, Any]) -> StudyCase:
         cell_px=document["cell_px"],
         sweep=_sweep(document["sweep"]),
         front=_front(document["front"]),
+        blank=Scores(**{name: int(document["blank"][name]) for name in _COUNTS}),
+        is_reference=document["drawing"]["is_reference"],
     )
 
 

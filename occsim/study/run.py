@@ -1,19 +1,19 @@
 """A study: drawings times cell sizes, each swept and searched for its exact front."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
 
-from occsim._types import Progress
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.errors import ParameterError
 from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
-from occsim.metrics import Region
+from occsim.metrics import Region, Scores
+from occsim.prior import Prior
 from occsim.priors import (
     MIN_RECALL,
     SOURCE_AXIS,
@@ -27,7 +27,6 @@ from occsim.priors import (
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import load_sample, sample_names
 from occsim.sensor import BehindHit, Sensor
-from occsim.study.published import SOURCE_CELLS_PX
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -92,7 +91,7 @@ class StudyDrawing:
     Parameters
     ----------
     name : str
-        Short name, unique in a study; that of a sample stands for the sample.
+        Short name, unique in a study.
     building : Building
         Drawing, walls, world and trajectory.
     sensor : Sensor
@@ -102,6 +101,13 @@ class StudyDrawing:
     name: str
     building: Building
     sensor: Sensor
+
+    @cached_property
+    def is_reference(self) -> bool:
+        """Whether this is the unchanged sample of that name, not only called so."""
+        if self.name not in sample_names():
+            return False
+        return self.building.digest == _reference(self.name).digest
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,12 +124,18 @@ class StudyCase:
         Scores at the source's 10 x 10 pairs.
     front : ParetoFront
         The exact one.
+    blank : Scores
+        Of the map without a drawing: a prior of one half.
+    is_reference : bool
+        Whether the drawing is a sample, beside which published figures may stand.
     """
 
     name: str
     cell_px: int
     sweep: PriorSweep
     front: ParetoFront
+    blank: Scores
+    is_reference: bool = False
 
     @cached_property
     def precision(self) -> Maxima:
@@ -209,8 +221,7 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
         Where there is neither such a sample nor such a file.
     """
     if source in sample_names():
-        building = building_from_sample(source)
-        return StudyDrawing(source, building, load_sample(source).sensor)
+        return StudyDrawing(source, _reference(source), load_sample(source).sensor)
     path = Path(source)
     if not path.is_file():
         raise ParameterError(
@@ -220,6 +231,11 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
     sensor = sensor or Sensor()
     building = building_from_drawing(load_drawing(path, name=path.stem), sensor)
     return StudyDrawing(path.stem, building, sensor)
+
+
+@lru_cache(maxsize=8)
+def _reference(name: str) -> Building:
+    return building_from_sample(name)
 
 
 def run_case(
@@ -265,46 +281,9 @@ def run_case(
         cell_px=cell_px,
         sweep=run.sweep(rule=rule, region=region),
         front=run.front(rule, region, settings.low, settings.high),
+        blank=run.scores(Prior.uninformative(), rule, region),
+        is_reference=drawing.is_reference,
     )
-
-
-def run_study(
-    drawings: Iterable[StudyDrawing] | None = None,
-    cells: Sequence[int] = SOURCE_CELLS_PX,
-    settings: StudySettings | None = None,
-    on_progress: Progress | None = None,
-) -> list[StudyCase]:
-    """Return every drawing at every cell size, the drawings in turn.
-
-    Parameters
-    ----------
-    drawings : iterable of StudyDrawing, optional
-        All samples by default.
-    cells : sequence of int, default (3, 5, 10)
-        Cell sizes, px.
-    settings : StudySettings, optional
-        The source's by default.
-    on_progress : callable, optional
-        Called as ``on_progress(done, total)`` after every case.
-
-    Returns
-    -------
-    list of StudyCase
-
-    Raises
-    ------
-    ParameterError, TrajectoryError
-        As in `run_case`.
-    """
-    if drawings is None:
-        drawings = [study_drawing(name) for name in sample_names()]
-    pairs = [(drawing, cell_px) for drawing in drawings for cell_px in cells]
-    cases = []
-    for drawing, cell_px in pairs:
-        cases.append(run_case(drawing, cell_px, settings))
-        if on_progress is not None:
-            on_progress(len(cases), len(pairs))
-    return cases
 
 
 def pattern(cases: Iterable[StudyCase]) -> Pattern:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from occsim.priors import MIN_RECALL, Objective
-from occsim.study.published import published_maximum
+from occsim.study.published import PublishedMaximum, published_maximum
 from occsim.study.run import LOW_SPACE, Pattern, StudyCase, pattern
 
 _TITLES = {
@@ -58,20 +58,26 @@ def maxima_rows(cases: Iterable[StudyCase]) -> list[Row]:
     -------
     list of tuple
         One row a case and objective, columns `MAXIMA_COLUMNS`; undefined percentages
-        are NaN, and the published ones are so for drawings that the source lacks.
+        are NaN, and the published ones are so for all drawings but the samples.
     """
     by_size = sorted(cases, key=lambda case: case.cell_px)
     rows: list[Row] = []
     for objective in Objective:
         for case in by_size:
             best = case.maxima(objective)
-            printed = published_maximum(objective, case.cell_px, case.name)
+            printed = _printed(case, objective)
             percent, pairs = printed or (float("nan"), "")
             found = (100.0 * best.value, best.text)
             rows.append(
                 (objective.value, case.cell_px, case.name, *found, percent, pairs)
             )
     return rows
+
+
+def _printed(case: StudyCase, objective: Objective) -> PublishedMaximum | None:
+    if not case.is_reference:
+        return None
+    return published_maximum(objective, case.cell_px, case.name)
 
 
 def front_rows(cases: Iterable[StudyCase], min_recall: float = MIN_RECALL) -> list[Row]:

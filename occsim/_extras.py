@@ -1,0 +1,36 @@
+"""Packages that only some of the library needs, and that may not be installed."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def needs_extra(extra: str, what: str) -> Iterator[None]:
+    """Say how to install what an import inside the block does not find.
+
+    Parameters
+    ----------
+    extra : str
+        Extra of `occsim` that brings the package.
+    what : str
+        What needs it.
+
+    Raises
+    ------
+    ImportError
+        Where the import fails, in one sentence.
+
+    Examples
+    --------
+    >>> with needs_extra("study", "a figure"):
+    ...     import no_such_package
+    Traceback (most recent call last):
+    ImportError: a figure needs no_such_package: pip install 'occsim[study]'
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        missing = (error.name or "a package").partition(".")[0]
+        raise ImportError(
+            f"{what} needs {missing}: pip install 'occsim[{extra}]'", name=missing
+        ) from None
