@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from occsim._extras import needs_extra
 from occsim._types import FloatArray, Progress
 from occsim.errors import ParameterError, require_choice
 from occsim.priors.front import ParetoFront, front_of, hypervolume
@@ -197,10 +198,11 @@ def _algorithm(
     bounds: tuple[float, float],
 ) -> Any:
     # Importing pymoo takes most of a second: only where an optimisation starts.
-    from pymoo.algorithms.moo.nsga2 import NSGA2
-    from pymoo.core.problem import Problem
+    with needs_extra("study", "NSGA-II"):
+        from pymoo.algorithms.moo.nsga2 import NSGA2
+        from pymoo.core.problem import Problem
 
-    from occsim.priors.elitism import ControlledElitism
+        from occsim.priors.elitism import ControlledElitism
 
     survival = {} if ratio is None else {"survival": ControlledElitism(ratio)}
     first = _first_population(pop_size, seed, bounds)
