@@ -155,12 +155,12 @@ def chunk(kind: bytes, body: bytes) -> bytes:
     )
 
 
-def png_bomb(width: int = 30_000, height: int = 30_000, colour: int = 2) -> bytes:
-    """A white PNG whose pixels take a thousand times its size."""
-    row = b"\0" + b"\xff" * (width * {0: 1, 2: 3, 6: 4}[colour])
-    packer = zlib.compressobj(9)
-    body = b"".join(packer.compress(row) for _ in range(height)) + packer.flush()
-    header = struct.pack(">IIBBBBB", width, height, 8, colour, 0, 0, 0)
+def png_bomb(side_px: int = 30_000, n_rows: int = 2000) -> bytes:
+    """A PNG of colours whose pixels take a thousand times its size, and are cut off."""
+    packer = zlib.compressobj(1)
+    row = bytes(1 + 3 * side_px)
+    body = b"".join(packer.compress(row) for _ in range(n_rows)) + packer.flush()
+    header = struct.pack(">IIBBBBB", side_px, side_px, 8, 2, 0, 0, 0)
     return (
         b"\x89PNG\r\n\x1a\n"
         + chunk(b"IHDR", header)
@@ -194,3 +194,26 @@ def tiff_of_a_claimed_size(side_px: int = 29_000) -> bytes:
         if tag in (256, 257, 278):  # width, height, rows in a strip
             struct.pack_into("<I" if kind == 4 else "<H", data, at + 8, side_px)
     return bytes(data)
+
+
+def bmp_of_a_claimed_size(side_px: int) -> bytes:
+    """A BMP of colours, run-length coded, that ends after its header."""
+    info = struct.pack("<IiiHHIIiiII", 40, side_px, side_px, 1, 24, 0, 0, 0, 0, 0, 0)
+    return struct.pack("<2sIHHI", b"BM", 54, 0, 0, 54) + info
+
+
+def gif_of_a_claimed_size(side_px: int) -> bytes:
+    """A GIF that ends after the description of its first picture."""
+    size = struct.pack("<HH", side_px, side_px)
+    return (
+        b"GIF89a" + size + b"\x80\0\0" + bytes(6) + b",\0\0\0\0" + size + b"\0\x02\0;"
+    )
+
+
+def jpeg_of_a_claimed_size(side_px: int) -> bytes:
+    """A JPEG whose frame is larger than its scan."""
+    out = io.BytesIO()
+    Image.new("RGB", (64, 64), "white").save(out, "JPEG", progressive=True)
+    data = out.getvalue()
+    at = data.index(b"\xff\xc2") + 5
+    return data[:at] + struct.pack(">HH", side_px, side_px) + data[at + 4 :]

@@ -1,7 +1,6 @@
 """Images, decoded by Pillow."""
 
 import io
-import itertools
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -47,13 +46,17 @@ class Picture:
 
 
 def take_over_pillow() -> None:
-    """Set Pillow up for this process: our bounds, no remarks, one more kind of TIFF."""
+    """Set Pillow up for this process: our bounds, no remarks, more kinds of TIFF."""
     warnings.simplefilter("ignore")
     Image.MAX_IMAGE_PIXELS = None
-    # It unpacks twelve bits a sample where black is zero, and could where white is.
-    for order, photometric in itertools.product((b"II", b"MM"), (0, 1)):
-        key = (order, photometric, (1,), 1, (12,), ())
-        TiffImagePlugin.OPEN_INFO.setdefault(key, ("I;16", "I;12"))
+    # What it unpacks where black is zero, it can where white is; and it unpacks twelve
+    # bits a sample in either order of bytes.
+    known = TiffImagePlugin.OPEN_INFO
+    known.setdefault((b"MM", 1, (1,), 1, (12,), ()), ("I;16", "I;12"))
+    for (order, photometric, kind, fill, bits, more), modes in list(known.items()):
+        if photometric == 1 and len(bits) == 1 and bits[0] > 8:
+            key = (order, _WHITE_IS_ZERO, kind, fill, bits, more)
+            known.setdefault(key, modes)
 
 
 def decode_image(
