@@ -6,6 +6,30 @@ from pathlib import Path
 
 from occsim.errors import OccsimError
 
+LONGEST_NAME = 100
+
+
+def printable(name: str) -> str:
+    r"""Return a file's name as it can be shown, in one line of text.
+
+    Parameters
+    ----------
+    name : str
+        May hold line breaks, or bytes that are no text, which no message can carry.
+
+    Returns
+    -------
+    str
+        Of at most 100 characters.
+
+    Examples
+    --------
+    >>> printable("plan\n.png")
+    'plan\ufffd.png'
+    """
+    shown = name if len(name) <= LONGEST_NAME else f"...{name[3 - LONGEST_NAME :]}"
+    return "".join(c if c.isprintable() else "\ufffd" for c in shown)
+
 
 def read_source(
     source: bytes | str | Path,
@@ -44,7 +68,7 @@ def read_source(
         data, name, size = bytes(source), what, len(source)
     else:
         path = Path(source)
-        name = path.name
+        name = printable(path.name)
         try:
             status = path.stat()
             # A device or a pipe has no size to check, and may have no end.

@@ -154,10 +154,97 @@ def test_tum_quaternions_become_headings():
     """Yaw of a turn by a about z is a: qz = sin(a/2), qw = cos(a/2)."""
     half = np.sqrt(0.5)
     text = f"# made by hand\n0.0 10 20 5 0 0 0 1\n1.5 11 21 5 0 0 {half} {half}\n"
+    table = read_trajectory_table(text.encode())
+    assert table.metres
     expected = [[10, 20, 0], [11, 21, np.pi / 2]]
-    np.testing.assert_allclose(load_trajectory(text.encode()).poses, expected)
+    np.testing.assert_allclose(table.values, expected)
     with pytest.raises(TrajectoryError, match="line 1: the quaternion"):
         load_trajectory(b"0 1 2 3 0 0 0 0", name="a.tum")
+
+
+FRAME = MetricFrame(height_px=100, metres_per_px=0.05)
+"""At (x, y) m lies the pixel (20 x, 100 - 20 y); a turn to the left is negative."""
+
+POSE_M = [1.0, 2.0, np.pi / 2]
+POSE_PX = [[20.0, 60.0, -np.pi / 2]]
+HALF = repr(float(np.sqrt(0.5)))
+
+METRIC_FILES = {
+    "tum": f"7 1 2 0 0 0 {HALF} {HALF}",
+    "tum, qw first, named": "#timestamp tx ty tz qw qx qy qz\n"
+    f"7 1 2 0 {HALF} 0 0 {HALF}",
+    "quaternion before the place": f"qw,qx,qy,qz,x,y\n{HALF},0,0,{HALF},1,2",
+    "quaternion after it": f"t;y;x;qz;qy;qx;qw\n7;2;1;{HALF};0;0;{HALF}",
+    "euroc": "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], "
+    "q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], "
+    "v_RS_R_z [m s^-1], b_w_RS_S_x [rad s^-1]\n"
+    f"1403636579763555584,1,2,0.5,{HALF},0,0,{HALF},9,9,9,9",
+    "ros": "%time,field.header.seq,field.pose.pose.position.x,"
+    "field.pose.pose.position.y,field.pose.pose.position.z,"
+    "field.pose.pose.orientation.x,field.pose.pose.orientation.y,"
+    "field.pose.pose.orientation.z,field.pose.pose.orientation.w,"
+    "field.twist.twist.linear.x,field.twist.twist.angular.z\n"
+    f"7,1,1,2,0,0,0,{HALF},{HALF},5,5",
+    "plotjuggler": "__time,/odom/pose/pose/position/x,/odom/pose/pose/position/y,"
+    "/odom/pose/pose/orientation/yaw_deg\n7,1,2,90",
+    "metres in the titles": "x_m,y_m,yaw_deg\n1,2,90",
+    "centimetres": "x [cm];y [cm];heading (deg)\n100;200;90",
+    "nothing but a frame": f"1,2,{np.pi / 2}",
+    # A camera that looks along its z, which is up on a plan.
+    "kitti": "1 0 0 1 0 1 0 0 0 0 1 2",
+    "kitti, z up": "0 -1 0 1 1 0 0 2 0 0 1 0",
+}
+
+
+@pytest.mark.parametrize("text", METRIC_FILES.values(), ids=METRIC_FILES)
+def test_metres_come_into_the_image_frame_whatever_the_order(text):
+    loaded = load_trajectory(text.encode(), frame=FRAME)
+    np.testing.assert_allclose(loaded.poses, POSE_PX, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text", [t for k, t in METRIC_FILES.items() if "but a frame" not in k]
+)
+def test_metres_are_never_taken_for_pixels(text):
+    with pytest.raises(TrajectoryError, match="are in metres; .*MetricFrame"):
+        load_trajectory(text.encode(), degrees=False)
+
+
+def test_frame_is_for_metres_and_a_frame():
+    with pytest.raises(TrajectoryError, match="in px; a frame is for metres"):
+        load_trajectory(b"x_px,y_px,theta_rad\n1,2,0", frame=FRAME)
+    with pytest.raises(TypeError, match="must be a MetricFrame; got float"):
+        load_trajectory(b"x_m,y_m,theta_rad\n1,2,0", frame=0.05)
+    tiny = MetricFrame(height_px=1, metres_per_px=1e-300)
+    with pytest.raises(TrajectoryError, match="finite"):
+        load_trajectory(b"x_m,y_m,theta_rad\n1e9,2,0", frame=tiny)
+
+
+def test_pixels_are_preferred_to_metres_where_a_file_has_both():
+    data = b"x_m,x_px,y_m,y_px,theta_rad\n1,20,2,40,0.5\n"
+    assert load_trajectory(data).poses.tolist() == [[20, 40, 0.5]]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1,5;2,5;0,5",
+        "1,234;12,5;0,5",  # a thousand has three digits after its comma
+        "1,234;0,500;0,5",  # and none begins with zero
+        "1,234\t2\t0,5",
+    ],
+)
+def test_decimal_comma_is_read_where_another_number_shows_it(text):
+    (first, *_), *_ = load_trajectory(text.encode()).poses.tolist()
+    assert first in (1.5, 1.234)
+
+
+@pytest.mark.parametrize(
+    "text", ["1,234;5;0", "1,234\t5\t0", "1,234;5;0.5", "7;5;0\n12,500;-1,234;0"]
+)
+def test_comma_that_may_be_of_thousands_is_refused(text):
+    with pytest.raises(TrajectoryError, match="may be .* or .*decimal point"):
+        load_trajectory(text.encode())
 
 
 UP, RIGHT, DOWN, LEFT = 1.5 * np.pi, 0.0, 0.5 * np.pi, np.pi
@@ -355,9 +442,33 @@ BAD_FILES = [
     (bytes(300), "not a text file"),
     (b"\xff\xfe\x00", "not a text file"),
     (b"\x80\x04\x95pickle", "not a text file"),
-    (b"PK\x03\x04" + bytes(60), "not a text file"),
+    (b"PK\x03\x04" + bytes(60), "is a zip archive, not a trajectory"),
     (b"[[1, 2, 3", "not valid JSON"),
-    (b"[" * 100_000, "not valid JSON"),
+    (b"[" * 40_000, "not valid JSON"),
+    (b"[" * 100_000, "too long; a JSON file may have 10 MB, 50,000 poses"),
+    (
+        b"[" + b"[" * 992 + b"]" * 993,
+        "pose 1: a list of 3 numbers is needed; got a|not valid",
+    ),
+    (b'[{"x": 1, "y": 2, "theta": "\\ud800"}]', "pose 1: every value must be a num"),
+    (b'[{"\\ud800": 1, "x": 2, "y": 3, "theta": 4}, {"x": 1}]', "pose 2: the keys"),
+    (b"1,2,1e16", "headings 1e\\+06; got 1, 2, 1e\\+16"),
+    (b"1,1e300,0", "positions at most 1e\\+09"),
+    (b"1\n" * 9_000_000, "about 9,000,000 lines; at most 200,000"),
+    (b"x" * 19_000_000, "line 1 has 19,000,000 bytes; at most 10,000"),
+    (b"1,2,3\n1,2,3,4\n", "line 2: 3 columns are needed; got 4"),
+    (b"1_0,2,3\n", "line 1: x must be a finite number; got '1_0'"),
+    (b"a,b,c,d,e,f,g,h\n" + b"1,2,3,4,0,0,0,1\n", "must name the columns x, y and th"),
+    (b"#a,b,c,d,e,f,g,h\n" + b"1,2,3,4,0,0,0,1\n", "must name the columns x, y and t"),
+    (b"#t x y z a b c d\n" + b"1 2 3 4 0 0 0 1\n", "must name the columns x, y and t"),
+    (b"1 2 3 4 5 6 7 8\n", "quaternion qx qy qz qw must have length 1"),
+    (b"0 1 2 0 1 0 0 0\n0 1 2 0 .8 0 0 .6\n", "seem to have qw first"),
+    (b"1 2 3 4 5 6 7 8 9 10 11 12\n", "these hold no rotation"),
+    (b"x_px,y_m,theta\n1,2,3\n", "must name the columns"),
+    (b"#ROSBAG V2.0\n" + bytes(99), "is a ROS 1 bag, not a trajectory"),
+    (b"ODOM 0 0 0 0 0 0 0.1 host 0.1\n", "a robot's log in CARMEN format"),
+    (b"\x89PNG\r\n\x1a\n" + bytes(99), "is an image, not a trajectory; open it as"),
+    (b"%PDF-1.7\n", "is a PDF, not a trajectory"),
     (b"[]", "no poses"),
     (b"{}", "must hold a list of poses"),
     (b"[1, 2, 3]", "pose 1: a list of 3 numbers is needed; got 1"),
@@ -376,6 +487,11 @@ BAD_FILES = [
     (npy(np.zeros((2, 3), complex)), "real numbers; got complex128"),
     (npy(np.array([[{}, 1, 2]], object), allow_pickle=True), "real numbers"),
     (npy(np.zeros((9, 3)))[:-8], "cut short"),
+    # As many bytes as before, so that the header stays as long as it says.
+    (
+        npy(np.zeros((1, 3))).replace(b"(1, 3), }   ", b"(True, 3), }"),
+        r"\(S, 3\).*True",
+    ),
     (b"\x93NUMPY\x01\x00", "header of .* is damaged"),
     (b"\x93NUMPY\x01\x00\x06\x00(((((\n", "header of .* is damaged"),
     (b"\x89HDF\r\n\x1a\n" + bytes(99), "MATLAB 7.3"),
@@ -396,10 +512,10 @@ def test_bad_file_is_refused_in_one_sentence(data, said):
 
 
 def test_matlab_file_that_unpacks_without_end_is_refused():
-    """100 MB of zeros pack into 100 kB."""
+    """40 MB of zeros pack into 40 kB."""
     data = mat({"a": np.zeros(MAX_INFLATED_BYTES, np.uint8)}, do_compression=True)
     assert len(data) < 200_000
-    with pytest.raises(TrajectoryError, match="unpacks to more than 100 MB"):
+    with pytest.raises(TrajectoryError, match="unpacks to more than 40 MB"):
         load_trajectory(data)
 
 

@@ -49,6 +49,24 @@ class Drawing:
         rgb.setflags(write=False)
         object.__setattr__(self, "rgb", rgb)
 
+    @classmethod
+    def from_decoder(cls, rgb: ByteArray, name: str) -> "Drawing":
+        """Return the drawing of pixels that nobody else holds, without a copy.
+
+        Parameters
+        ----------
+        rgb : ndarray of uint8, shape (H, W, 3)
+            Not written to from now on.
+        name : str
+            What to call it.
+
+        Returns
+        -------
+        Drawing
+        """
+        rgb.setflags(write=False)
+        return cls(rgb=rgb, name=name)
+
     @property
     def shape(self) -> tuple[int, int]:
         """Height and width, px."""

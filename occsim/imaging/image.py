@@ -1,30 +1,41 @@
-"""Drawings from image files, decoded by Pillow."""
+"""Drawings from files of any kind."""
 
-import io
+import struct
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from PIL import Image, ImageOps, UnidentifiedImageError
 
 from occsim._types import ByteArray
 from occsim.errors import DrawingError
+from occsim.imaging.decode.images import decode_image
+from occsim.imaging.decode.limits import Refused
 from occsim.imaging.drawing import Drawing
-from occsim.imaging.pdf import load_pdf_page
-from occsim.imaging.source import (
-    ALLOWED_FORMATS,
-    MAX_PIXELS,
-    check_size,
-    decoding,
-    guess,
-    has_pdf_mark,
-    read_drawing_file,
-)
+from occsim.imaging.kinds import IMAGES, FileKind, kind_of_file
+from occsim.imaging.pdf import DEFAULT_PDF_SIDE_PX, load_pdf_page
+from occsim.imaging.pool import POOL
+from occsim.imaging.source import ALLOWED_FORMATS, checked_side, read_drawing_file
 
-IMAGE_FORMATS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "GIF", "PPM")
+PLAIN_PNG_PIXELS = 4_000_000
+"""Largest PNG that is decoded in this process, px."""
+
+PLAIN_PNG_BYTES = 8_000_000
+"""Largest file of one."""
+
+_PLAIN_CHUNKS = {
+    *{b"IHDR", b"PLTE", b"IDAT", b"IEND", b"tRNS", b"bKGD", b"sBIT"},
+    *{b"gAMA", b"cHRM", b"sRGB", b"pHYs", b"tIME"},
+}
+_MAX_CHUNKS = 2000
 
 
-def load_drawing(source: bytes | str | Path, *, name: str | None = None) -> Drawing:
+def load_drawing(
+    source: bytes | str | Path,
+    *,
+    name: str | None = None,
+    max_side_px: int | None = None,
+    keep_dark: bool = False,
+    allow_robot_map: bool = False,
+) -> Drawing:
     """Return the drawing in an image file, or on the first page of a PDF.
 
     Parameters
@@ -33,6 +44,17 @@ def load_drawing(source: bytes | str | Path, *, name: str | None = None) -> Draw
         The file's content, or where it is.
     name : str, optional
         What to call the drawing; by default the file's name, or "drawing".
+    max_side_px : int, optional
+        Longer side of the drawing, px: a larger image is reduced while it is decoded,
+        a page of a PDF rendered at this size. By default images keep their size, and
+        pages have 2000 px.
+    keep_dark : bool, default False
+        How an image is reduced. False, for drawings: each new pixel is the mean of
+        those it covers, but at least 0.6 as dark as the darkest of them, so that thin
+        lines stay ink. True, for pictures of walls alone: the darkest of them, so that
+        every wall stays wall.
+    allow_robot_map : bool, default False
+        Whether a robot's map in ROS format is taken as a drawing.
 
     Returns
     -------
@@ -44,80 +66,103 @@ def load_drawing(source: bytes | str | Path, *, name: str | None = None) -> Draw
     Raises
     ------
     DrawingError
-        Where the file is missing, empty, damaged, of another format, or an image
-        of more than `MAX_PIXELS` or with a side outside `MIN_SIDE_PX` to
-        `MAX_SIDE_PX`.
+        Where the file is missing, empty, damaged, of another kind or a robot's map;
+        where the drawing would have more than `MAX_PIXELS`, a side outside
+        `MIN_SIDE_PX` to `MAX_SIDE_PX` or be more than 50 times as long as wide; where
+        decoding takes more than 8 s, or more memory than an image of 100 million
+        pixels in colour or 400 million in grey does.
+    ParameterError
+        Where `max_side_px` lies outside `MIN_SIDE_PX` to `MAX_SIDE_PX`.
+
+    Notes
+    -----
+    What strangers bring is decoded in a process of its own, see
+    :mod:`occsim.imaging.pool`; only small plain PNG files are decoded here.
+
+    Examples
+    --------
+    >>> load_drawing("scan.png", max_side_px=1500).shape  # doctest: +SKIP
+    (1060, 1500)
     """
-    data, file_name = read_drawing_file(source)
-    name = name or file_name
-    if has_pdf_mark(data):
-        return load_pdf_page(data, name=name)
-    with decoding():
-        image = _open_image(data, name)
-        check_size(*image.size)
-        return Drawing(rgb=_pixels(image, name), name=name)
-
-
-def _open_image(data: bytes, name: str) -> Image.Image:
-    """Return the image with its header read and its pixels not yet decoded."""
-    try:
-        return Image.open(io.BytesIO(data), formats=IMAGE_FORMATS)
-    except Image.DecompressionBombError:
-        # Pillow refuses on its own before it tells the size.
-        limit = 2 * (Image.MAX_IMAGE_PIXELS or 0)
+    data, name = read_drawing_file(source, name)
+    if max_side_px is not None:
+        max_side_px = checked_side("max_side_px", max_side_px)
+    kind = kind_of_file(data, name)
+    if kind is FileKind.PDF:
+        side_px = max_side_px or DEFAULT_PDF_SIDE_PX
+        return load_pdf_page(data, long_side_px=side_px, name=name)
+    if kind not in IMAGES:
         raise DrawingError(
-            f"{name} has more than {limit / 1e6:.0f} megapixels; "
-            f"at most {MAX_PIXELS / 1e6:.0f} are allowed"
-        ) from None
-    except UnidentifiedImageError:
+            f"{name} is {kind.about}, not an image in {ALLOWED_FORMATS}; {kind.advice}"
+        )
+    if not allow_robot_map and (kind is FileKind.ROBOT_MAP or _has_yaml(source)):
+        map_kind = FileKind.ROBOT_MAP
         raise DrawingError(
-            f"{name} is not an image that can be read; allowed are "
-            f"{ALLOWED_FORMATS}, got {guess(data)}"
-        ) from None
-    except Exception as error:  # damaged headers end in errors of many types
-        raise _damaged(name, error) from None
+            f"{name} is {map_kind.about}, not a drawing; {map_kind.advice}"
+        )
+    return Drawing.from_decoder(_pixels(data, name, max_side_px, keep_dark), name)
 
 
-def _pixels(image: Image.Image, name: str) -> ByteArray:
-    """Decode to uint8 of shape (H, W, 3), upright and opaque."""
-    try:
-        image.load()
-        ImageOps.exif_transpose(image, in_place=True)
-        if image.mode.startswith(("I", "F")):
-            gray = _eight_bits(np.asarray(image))
-            return np.repeat(gray[:, :, None], 3, axis=2)
-        if image.has_transparency_data:
-            image = _on_white(image)
-        # Large images: no copy that is not needed.
-        opaque = image if image.mode == "RGB" else image.convert("RGB")
-        return np.asarray(opaque, dtype=np.uint8)
-    except Exception as error:  # damaged pixels end in errors of many types
-        raise _damaged(name, error) from None
+def _has_yaml(source: bytes | str | Path) -> bool:
+    """Return whether the description of a robot's map lies beside an image."""
+    if not isinstance(source, str | Path):
+        return False
+    path = Path(source)
+    for beside in (path.with_suffix(suffix) for suffix in (".yaml", ".yml")):
+        try:
+            with beside.open("rb") as file:
+                text = file.read(4096)
+        except OSError:
+            continue
+        if kind_of_file(text) is FileKind.MAP_YAML and path.name.encode() in text:
+            return True
+    return False
 
 
-def _eight_bits(levels: np.ndarray[Any, Any]) -> ByteArray:
-    """Scale brightness of more than eight bits (H, W) to 0..255.
-
-    Integers span sixteen bits, or whatever they reach if that is more; floating-point
-    images span 0 to 1, or what they reach.
-    """
-    finite = np.nan_to_num(levels.astype(np.float32), nan=0.0, posinf=0.0, neginf=0.0)
-    usual = 1.0 if levels.dtype.kind == "f" else 65535.0
-    white = max(usual, float(finite.max()))
-    scaled = np.clip(finite * (255.0 / white), 0.0, 255.0)
-    return np.asarray(np.rint(scaled), dtype=np.uint8)
-
-
-def _on_white(image: Image.Image) -> Image.Image:
-    """Lay a partly transparent image on white paper."""
-    layer = image.convert("RGBA")
-    paper = Image.new("RGBA", layer.size, "white")
-    return Image.alpha_composite(paper, layer)
-
-
-def _damaged(name: str, error: Exception) -> DrawingError:
-    detail = " ".join(str(error).split())[:100] or type(error).__name__
-    return DrawingError(
-        f"{name} is damaged or cut short and cannot be decoded; "
-        f"a complete image file is needed (the decoder says: {detail})"
+def _pixels(
+    data: bytes, name: str, max_side_px: int | None, keep_dark: bool
+) -> ByteArray:
+    """Return an image's pixels, uint8 of shape (H, W, 3), upright."""
+    if _is_plain_png(data):
+        try:
+            picture = decode_image(data, name, max_side_px, keep_dark)
+            return np.concatenate(list(picture.strips))
+        except Refused as error:
+            raise DrawingError(str(error)) from None
+    reply, stored = POOL.answer(
+        data, name, task="image", max_side_px=max_side_px, keep_dark=keep_dark
     )
+    return _upright(stored, reply["orientation"])
+
+
+def _is_plain_png(data: bytes) -> bool:
+    """Return whether a PNG is small and has nothing that could make it costly.
+
+    Every buffer then follows from width and height, the compressed pixels are unpacked
+    no further than that, and the checksums of a limited number of chunks are all else
+    that is computed: 64 MB and half a second at most. Profiles, texts and metadata,
+    which unpack or parse to anything, send a file to the decoder's process.
+    """
+    if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) > PLAIN_PNG_BYTES:
+        return False
+    at, n_chunks = 8, 0
+    while at + 8 <= len(data) and n_chunks < _MAX_CHUNKS:
+        size, kind = struct.unpack_from(">I4s", data, at)
+        if kind not in _PLAIN_CHUNKS or (at == 8) != (kind == b"IHDR"):
+            return False
+        at, n_chunks = at + 12 + size, n_chunks + 1
+    width, height = struct.unpack_from(">II", data.ljust(24, b"\0"), 16)
+    return n_chunks < _MAX_CHUNKS and width * height <= PLAIN_PNG_PIXELS
+
+
+def _upright(stored: ByteArray, orientation: int) -> ByteArray:
+    """Turn and mirror an image as its orientation in EXIF says."""
+    if orientation in (5, 6, 7, 8):
+        stored = stored.transpose(1, 0, 2)
+    # Of rows and columns as they stand now.
+    flip_rows, flip_columns = orientation in (3, 4, 7, 8), orientation in (2, 3, 6, 7)
+    if flip_rows:
+        stored = stored[::-1]
+    if flip_columns:
+        stored = stored[:, ::-1]
+    return np.ascontiguousarray(stored)

@@ -1,20 +1,12 @@
-"""Drawings from the pages of a PDF, rendered by PDFium."""
+"""Drawings from the pages of a PDF."""
 
-import math
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from occsim.errors import DrawingError
 from occsim.imaging.drawing import Drawing
-from occsim.imaging.source import (
-    check_size,
-    decoding,
-    guess,
-    has_pdf_mark,
-    read_drawing_file,
-)
+from occsim.imaging.kinds import FileKind, kind_of_file
+from occsim.imaging.pool import POOL
+from occsim.imaging.source import checked_side, read_drawing_file
 
 DEFAULT_PDF_SIDE_PX = 2000
 """Longer side of a rendered PDF page, px: thin walls stay two or more px wide."""
@@ -37,9 +29,9 @@ def pdf_page_count(source: bytes | str | Path) -> int:
     DrawingError
         Where the file cannot be read as a PDF.
     """
-    data, name = read_drawing_file(source)
-    with decoding(), _pdf(data, name) as document:
-        return len(document)
+    data, name = _read_pdf(source, None)
+    reply, _ = POOL.answer(data, name, task="count")
+    return int(reply["n_pages"])
 
 
 def load_pdf_page(
@@ -65,28 +57,23 @@ def load_pdf_page(
     Returns
     -------
     Drawing
-        The page on white.
+        The page on white, with what is filled into its forms.
 
     Raises
     ------
     DrawingError
         Where the file cannot be read as a PDF, has no such page, or the page is so
-        long and narrow, or `long_side_px` such, that the size is not allowed.
+        long and narrow, or `long_side_px` such, that the size is not allowed; where it
+        takes too much memory or time.
+    ParameterError
+        Where `long_side_px` lies outside `MIN_SIDE_PX` to `MAX_SIDE_PX`.
     """
-    data, file_name = read_drawing_file(source)
-    name = name or file_name
-    with decoding(), _pdf(data, name) as document:
-        if not 1 <= page <= len(document):
-            raise DrawingError(
-                f"page must lie between 1 and {len(document)}, the last page of "
-                f"{name}; got {page!r}"
-            )
-        sheet = document[page - 1]
-        width_pt, height_pt = sheet.get_size()
-        scale = long_side_px / max(width_pt, height_pt, 1e-6)
-        check_size(math.ceil(width_pt * scale), math.ceil(height_pt * scale))
-        rgb = sheet.render(scale=scale, rev_byteorder=True).to_numpy()[:, :, :3]
-        return Drawing(rgb=rgb.copy(), name=name)
+    data, name = _read_pdf(source, name)
+    long_side_px = checked_side("long_side_px", long_side_px)
+    if not isinstance(page, int) or isinstance(page, bool):
+        raise DrawingError(f"page must be a whole number from 1; got {page!r:.60}")
+    _, rgb = POOL.answer(data, name, task="page", page=page, long_side_px=long_side_px)
+    return Drawing.from_decoder(rgb, name)
 
 
 def is_pdf(source: bytes | str | Path) -> bool:
@@ -106,26 +93,13 @@ def is_pdf(source: bytes | str | Path) -> bool:
     DrawingError
         Where the file cannot be opened, is empty or too large.
     """
-    return has_pdf_mark(read_drawing_file(source)[0])
+    return kind_of_file(read_drawing_file(source)[0]) is FileKind.PDF
 
 
-@contextmanager
-def _pdf(data: bytes, name: str) -> Iterator[Any]:
-    """Open a PDF; anything that PDFium cannot do becomes a `DrawingError`."""
-    # Here, because few drawings are PDFs; the library carries no types.
-    import pypdfium2  # type: ignore[import-untyped]
-
-    if not has_pdf_mark(data):
-        raise DrawingError(f"{name} is not a PDF; got {guess(data)}")
-    try:
-        document = pypdfium2.PdfDocument(data)
-        try:
-            yield document
-        finally:
-            document.close()
-    except pypdfium2.PdfiumError as error:
-        reason = str(error).split("PDFium: ")[-1].rstrip(").")
-        raise DrawingError(
-            f"{name} cannot be read as a PDF ({reason}); "
-            "an undamaged PDF without password is needed"
-        ) from None
+def _read_pdf(source: bytes | str | Path, name: str | None) -> tuple[bytes, str]:
+    """Return the content and name of a file that is a PDF by its mark."""
+    data, name = read_drawing_file(source, name)
+    kind = kind_of_file(data, name)
+    if kind is not FileKind.PDF:
+        raise DrawingError(f"{name} is not a PDF; got {kind.about}")
+    return data, name

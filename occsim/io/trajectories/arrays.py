@@ -6,17 +6,25 @@ from typing import Any
 
 import numpy as np
 
+from occsim._files import printable
 from occsim.errors import TrajectoryError
+from occsim.io.trajectories.columns import find_columns
 from occsim.io.trajectories.table import (
+    MAX_POSES,
     TrajectoryTable,
     check_array,
     check_count,
-    find_columns,
     table_from,
 )
 from occsim.io.trajectories.text import decode
 
 NPY_MARK = b"\x93NUMPY"
+
+MAX_JSON_BYTES = 10_000_000
+"""Largest JSON file, bytes: 200 a pose. All of it is in memory at once."""
+
+MAX_JSON_VALUES = 12 * MAX_POSES
+"""Most numbers and texts in one."""
 
 
 def parse_npy(data: bytes, name: str) -> TrajectoryTable:
@@ -54,8 +62,9 @@ def parse_npy(data: bytes, name: str) -> TrajectoryTable:
             f"{len(data) - start:,} bytes follow"
         )
     values = np.frombuffer(data, dtype, count, start)
-    values = values.reshape(shape, order="F" if by_column else "C").astype(np.float64)
-    return table_from(values, {}, name)
+    values = values.reshape(shape, order="F" if by_column else "C")
+    with np.errstate(over="ignore"):  # long doubles beyond float64 become infinite
+        return table_from(values.astype(np.float64), {}, name)
 
 
 def parse_json(data: bytes, name: str) -> TrajectoryTable:
@@ -78,10 +87,10 @@ def parse_json(data: bytes, name: str) -> TrajectoryTable:
     ------
     TrajectoryError
     """
+    _check_json_size(data, name)
+    text = decode(data, name)
     try:
-        content = json.loads(decode(data, name))
-    except TrajectoryError:
-        raise
+        content = json.loads(text)
     except (ValueError, RecursionError) as error:
         place = getattr(error, "lineno", None)
         where = f" (line {place})" if place else ""
@@ -96,32 +105,45 @@ def parse_json(data: bytes, name: str) -> TrajectoryTable:
         )
     check_count(len(content), name)
     if isinstance(content[0], dict):
-        columns = [str(key) for key in content[0]]
+        columns = list(content[0])
         content = [_ordered(pose, columns, k, name) for k, pose in enumerate(content)]
     return _json_rows(content, columns, name)
 
 
-def _json_rows(rows: list[Any], columns: Any, name: str) -> TrajectoryTable:
-    found = (
-        find_columns([str(title) for title in columns])
-        if isinstance(columns, list)
+def _check_json_size(data: bytes, name: str) -> None:
+    """Refuse what would take several times its size in memory, before it is parsed."""
+    n_lists = max(data.count(b"["), data.count(b"{"))
+    if (
+        len(data) > MAX_JSON_BYTES
+        or data.count(b",") > MAX_JSON_VALUES
+        or n_lists > MAX_POSES + 100
+    ):
+        raise TrajectoryError(
+            f"{name} is too long; a JSON file may have {MAX_JSON_BYTES / 1e6:.0f} MB, "
+            f"{MAX_POSES:,} poses and {MAX_JSON_VALUES:,} values"
+        )
+
+
+def _json_rows(rows: list[Any], titles: Any, name: str) -> TrajectoryTable:
+    columns = (
+        find_columns([str(title) for title in titles])
+        if isinstance(titles, list)
         else None
     )
-    if found is None:
+    if columns is None:
         raise TrajectoryError(
             f"the poses of {name} must have x, y and theta "
             "(or x_px, y_px, theta_deg or theta_rad)"
         )
-    indices, units = found
-    values = np.empty((len(rows), 3))
+    values = np.empty((len(rows), len(columns.indices)))
     for k, row in enumerate(rows):
-        if not isinstance(row, list) or len(row) != len(columns):
+        if not isinstance(row, list) or len(row) != len(titles):
             raise TrajectoryError(
-                f"{name}, pose {k + 1}: a list of {len(columns)} numbers is needed; "
+                f"{name}, pose {k + 1}: a list of {len(titles)} numbers is needed; "
                 f"got {_short(row)}"
             )
-        values[k] = [_json_number(row[i], k, name) for i in indices]
-    return table_from(values, units, name)
+        values[k] = [_json_number(row[i], k, name) for i in columns.indices]
+    return table_from(columns.poses(values), columns.units, name)
 
 
 def _ordered(pose: Any, keys: list[str], k: int, name: str) -> list[Any]:
@@ -129,7 +151,7 @@ def _ordered(pose: Any, keys: list[str], k: int, name: str) -> list[Any]:
     if not isinstance(pose, dict) or not set(keys) <= set(pose):
         raise TrajectoryError(
             f"{name}, pose {k + 1}: the keys of the first pose are needed "
-            f"({', '.join(keys)[:60]}); got {_short(pose)}"
+            f"({printable(', '.join(keys)[:60])}); got {_short(pose)}"
         )
     return [pose[key] for key in keys]
 
@@ -146,5 +168,7 @@ def _json_number(value: Any, k: int, name: str) -> float:
 
 
 def _short(value: object) -> str:
-    text = json.dumps(value)
-    return text if len(text) <= 40 else text[:37] + "..."
+    """Return a value as it can be quoted; lists may be nested without end."""
+    if isinstance(value, list | dict):
+        return f"a {'list' if isinstance(value, list) else 'object'} of {len(value)}"
+    return printable(json.dumps(value)[:40])

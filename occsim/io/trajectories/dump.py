@@ -9,7 +9,6 @@ import numpy as np
 
 from occsim._types import FloatArray
 from occsim.errors import ParameterError
-from occsim.io.trajectories.text import TUM_COLUMNS
 from occsim.trajectory import Trajectory
 
 
@@ -27,7 +26,7 @@ class TrajectoryFormat(Enum):
     JSON = "json"
     """An object of column titles and poses."""
     TUM = "tum"
-    """timestamp tx ty tz qx qy qz qw: px for metres, the reading's number for time."""
+    """timestamp tx_px ty_px tz_px qx qy qz qw, the reading's number for the time."""
 
 
 def dump_trajectory(
@@ -79,7 +78,9 @@ def _tum(table: FloatArray, _angle: str) -> bytes:
     half = 0.5 * theta
     time_s = np.arange(len(table), dtype=np.float64)
     columns = [time_s, x, y, zero, zero, zero, np.sin(half), np.cos(half)]
-    return _lines(["# " + " ".join(TUM_COLUMNS)], np.stack(columns, axis=1), " ")
+    # Without units a reader, ours too, takes the numbers for metres.
+    header = "# timestamp tx_px ty_px tz_px qx qy qz qw"
+    return _lines([header], np.stack(columns, axis=1), " ")
 
 
 def _lines(header: list[str], table: FloatArray, delimiter: str) -> bytes:

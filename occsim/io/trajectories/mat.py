@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from occsim._files import printable
 from occsim._types import FloatArray
 from occsim.errors import TrajectoryError
+from occsim.io.trajectories.columns import column_axis
 from occsim.io.trajectories.table import (
     MAX_POSES,
     TrajectoryTable,
     check_count,
-    column_axis,
     table_from,
 )
 
@@ -27,8 +28,11 @@ HDF5_MARK = b"\x89HDF\r\n\x1a\n"
 MATLAB_5_MARK = b"MATLAB 5.0 MAT-file"
 MATLAB_73_MARK = b"MATLAB 7.3 MAT-file"
 
-MAX_INFLATED_BYTES = 100_000_000
+MAX_INFLATED_BYTES = 40_000_000
 """Most that the compressed variables of a file may hold, bytes."""
+
+MAX_VARIABLES = 1000
+"""Most variables in a file."""
 
 USUAL_NAMES = ("trajectory", "poses", "path")
 
@@ -92,7 +96,8 @@ def parse_mat(data: bytes, name: str) -> TrajectoryTable:
             "(in MATLAB: save(..., '-v7'))"
         )
     try:
-        variable = _choose(list(_variables(data, name)), name)
+        variables = list(itertools.islice(_variables(data, name), MAX_VARIABLES))
+        variable = _choose(variables, name)
         values = variable.values()
     except TrajectoryError:
         raise
@@ -117,7 +122,7 @@ def _choose(variables: list[_Variable], name: str) -> _Variable:
         listed = ", ".join(f"{v.name} {v.shape}" for v in variables[:5]) or "nothing"
         raise TrajectoryError(
             f"{name} must hold one real matrix of shape (S, 3), or one called "
-            f"trajectory; got {listed[:120]}"
+            f"trajectory; got {printable(listed[:120])}"
         )
     chosen = (named or fits)[0]
     check_count(chosen.shape[0], name)
@@ -148,7 +153,9 @@ def _variables(data: bytes, name: str) -> Iterator[_Variable]:
 def _elements(data: memoryview, order: str) -> Iterator[tuple[int, memoryview]]:
     """Return type and content of each data element of a version 5 file."""
     at = 0
-    while at + 8 <= len(data):
+    for _ in range(MAX_VARIABLES):
+        if at + 8 > len(data):
+            return
         kind, size = struct.unpack_from(order + "II", data, at)
         start, following = at + 8, at + 8 + size
         if kind >> 16:  # a small element: size, type and content in eight bytes

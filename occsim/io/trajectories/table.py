@@ -1,7 +1,5 @@
 """What a trajectory file says: numbers, and what is known of their units."""
 
-import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +7,7 @@ import numpy as np
 
 from occsim._types import FloatArray
 from occsim.errors import TrajectoryError
+from occsim.io.metric import MetricFrame, poses_to_image
 from occsim.trajectory import Trajectory
 
 MAX_FILE_BYTES = 20_000_000
@@ -17,24 +16,14 @@ MAX_FILE_BYTES = 20_000_000
 MAX_POSES = 50_000
 """Most poses in a file: ten times the longest tour that maps at interactive speed."""
 
+MAX_POSITION = 1e9
+"""Largest coordinate, in px or m; sums and squares of it are still exact enough."""
+
+MAX_HEADING = 1e6
+"""Largest heading, in radians or degrees: beyond, a float has no exact turn left."""
+
 # A heading may be written as a full turn; text rounds it.
 _FULL_TURN_RAD = 2.0 * np.pi + 1e-3
-
-_AXES = {
-    "x": {"x", "xpos", "posx", "xposition", "positionx", "tx"},
-    "y": {"y", "ypos", "posy", "yposition", "positiony", "ty"},
-    "theta": {
-        *{"theta", "θ", "th", "yaw", "heading", "angle", "psi", "bearing"},
-        *{"orientation", "direction", "rotation"},
-    },
-}
-_UNITS = {
-    **dict.fromkeys(("deg", "degree", "degrees", "°"), "deg"),
-    **dict.fromkeys(("rad", "radian", "radians"), "rad"),
-    **dict.fromkeys(("px", "pixel", "pixels"), "px"),
-    **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), "m"),
-}
-_WORD = re.compile(r"[^\W\d_]+|°")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,7 +38,10 @@ class TrajectoryTable:
         Whether the file says that headings are in degrees (True) or radians
         (False); None where it does not say.
     metres : bool
-        Whether the file says that positions are in metres.
+        Whether the file says that positions are in metres, y up.
+    pixels : bool
+        Whether it says that they are in px; where it says neither, they are taken for
+        px too, unless a frame is given.
     name : str
         What to call the file.
     """
@@ -57,6 +49,7 @@ class TrajectoryTable:
     values: FloatArray
     degrees: bool | None = None
     metres: bool = False
+    pixels: bool = False
     name: str = "trajectory"
 
     @property
@@ -64,8 +57,10 @@ class TrajectoryTable:
         """Whether somebody has to be asked for the unit of the headings."""
         return self.degrees is None
 
-    def to_trajectory(self, degrees: bool | None = None) -> Trajectory:
-        """Return the trajectory, once the unit of its headings is known.
+    def to_trajectory(
+        self, degrees: bool | None = None, frame: MetricFrame | None = None
+    ) -> Trajectory:
+        """Return the trajectory, once the units are known.
 
         Parameters
         ----------
@@ -73,29 +68,45 @@ class TrajectoryTable:
             Whether headings are in degrees; overrides what the file says.
             By default what the file says; where it says nothing, radians, as long
             as every heading lies within one turn either way.
+        frame : MetricFrame, optional
+            Where the drawing lies, for positions in metres with y up.
 
         Returns
         -------
         Trajectory
+            Positions in px, y down; headings in radians.
 
         Raises
         ------
         TrajectoryError
-            Where positions are in metres, or the headings reach beyond one turn in
-            radians and neither the file nor the caller gives their unit.
+            Where positions are in metres and no frame is given, or in px and one is;
+            where the headings reach beyond one turn in radians and neither the file
+            nor the caller gives their unit.
         """
-        if self.metres:
-            raise TrajectoryError(
-                f"positions in {self.name} are in metres; px in the drawing are "
-                "needed (columns x_px, y_px)"
-            )
+        self._check_frame(frame)
         unit = self.degrees if degrees is None else degrees
         poses = self.values.copy()
         if unit is None:
             self._require_within_a_turn()
         elif unit:
             poses[:, 2] = np.radians(poses[:, 2])
-        return Trajectory(poses=poses)
+        return (
+            Trajectory(poses=poses) if frame is None else poses_to_image(poses, frame)
+        )
+
+    def _check_frame(self, frame: MetricFrame | None) -> None:
+        if frame is not None and not isinstance(frame, MetricFrame):
+            raise TypeError(f"frame must be a MetricFrame; got {type(frame).__name__}")
+        if self.metres and frame is None:
+            raise TrajectoryError(
+                f"positions in {self.name} are in metres; px in the drawing are needed "
+                "(columns x_px, y_px), or the drawing's metres per px and the place of "
+                "its lower left corner (frame=MetricFrame(...))"
+            )
+        if self.pixels and frame is not None:
+            raise TrajectoryError(
+                f"positions in {self.name} are in px; a frame is for metres"
+            )
 
     def _require_within_a_turn(self) -> None:
         row = int(np.argmax(np.abs(self.values[:, 2])))
@@ -108,55 +119,6 @@ class TrajectoryTable:
             )
 
 
-def column_axis(title: str) -> tuple[str, str]:
-    """Return the axis that a column's title names, and its unit.
-
-    Parameters
-    ----------
-    title : str
-        For example ``"x"``, ``"Y [px]"``, ``"theta_deg"``, ``"Heading (°)"``.
-
-    Returns
-    -------
-    axis : str
-        "x", "y", "theta", or "" for anything else.
-    unit : str
-        "px", "m", "deg", "rad", or "" where none is named.
-    """
-    words = _WORD.findall(title.lower())
-    unit = _UNITS.get(words[-1], "") if len(words) > 1 else ""
-    base = "".join(words[:-1] if unit else words)
-    axis = next((axis for axis, names in _AXES.items() if base in names), "")
-    return axis, unit
-
-
-def find_columns(titles: Sequence[str]) -> tuple[list[int], dict[str, str]] | None:
-    """Return where x, y and theta stand among the titles, and their units.
-
-    Parameters
-    ----------
-    titles : sequence of str
-        A file's column titles.
-
-    Returns
-    -------
-    indices : list of int
-        Of x, y and theta; the first of each.
-    units : dict of str
-        By axis.
-
-    None is returned where one of the three is missing.
-    """
-    found: dict[str, tuple[int, str]] = {}
-    for index, title in enumerate(titles):
-        axis, unit = column_axis(title)
-        if axis and axis not in found:
-            found[axis] = index, unit
-    if len(found) < len(_AXES):
-        return None
-    return [found[axis][0] for axis in _AXES], {a: u for a, (_, u) in found.items()}
-
-
 def table_from(values: FloatArray, units: dict[str, str], name: str) -> TrajectoryTable:
     """Return the table of some values whose units are known by axis.
 
@@ -165,7 +127,7 @@ def table_from(values: FloatArray, units: dict[str, str], name: str) -> Trajecto
     values : ndarray of float64, shape (S, 3)
         Columns x, y, theta.
     units : dict of str
-        By axis, as from `find_columns`; may be empty.
+        By axis, as `PoseColumns.units` gives them; may be empty.
     name : str
         What to call the file.
 
@@ -176,21 +138,24 @@ def table_from(values: FloatArray, units: dict[str, str], name: str) -> Trajecto
     Raises
     ------
     TrajectoryError
-        Where there is no pose, too many, or one is not finite.
+        Where there is no pose, too many, or one is not finite or far too large.
     """
     check_count(len(values), name)
-    finite = np.isfinite(values).all(axis=1)
-    if not finite.all():
-        row = int(np.flatnonzero(~finite)[0])
+    limits = [MAX_POSITION, MAX_POSITION, MAX_HEADING]
+    good = (np.abs(values) <= limits).all(axis=1)  # NaN is not
+    if not good.all():
+        row = int(np.argmin(good))
         raise TrajectoryError(
-            f"{name}, pose {row + 1}: every number must be finite; "
+            f"{name}, pose {row + 1}: every number must be finite, positions at most "
+            f"{MAX_POSITION:g} and headings {MAX_HEADING:g}; "
             f"got {', '.join(f'{value:g}' for value in values[row])}"
         )
-    angle = units.get("theta", "")
+    lengths = units.get("x"), units.get("y")
     return TrajectoryTable(
         values=values,
-        degrees={"deg": True, "rad": False}.get(angle),
-        metres="m" in (units.get("x"), units.get("y")),
+        degrees={"deg": True, "rad": False}.get(units.get("theta", "")),
+        metres="m" in lengths,
+        pixels="px" in lengths,
         name=name,
     )
 
@@ -235,7 +200,8 @@ def check_array(shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> None
     ------
     TrajectoryError
     """
-    if len(shape) != 2 or shape[1] != 3:
+    # To NumPy's header, True is a number of rows.
+    if len(shape) != 2 or shape[1] != 3 or isinstance(shape[0], bool):
         raise TrajectoryError(
             f"the array in {name} must have shape (S, 3), rows of x, y, theta; "
             f"got {tuple(shape)}"

@@ -1,29 +1,40 @@
-"""Poses from CSV, plain text and TUM files."""
+"""Poses from CSV and plain text, TUM, EuRoC and KITTI files among them."""
 
 import csv
-from collections.abc import Sequence
-from dataclasses import dataclass
+import re
+from array import array
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from occsim._files import printable
 from occsim._types import FloatArray
 from occsim.errors import TrajectoryError
+from occsim.io.trajectories.bare import bare_columns, bare_poses
+from occsim.io.trajectories.columns import PoseColumns, column_axis, find_columns
 from occsim.io.trajectories.table import (
+    MAX_POSES,
     TrajectoryTable,
     check_count,
-    find_columns,
     table_from,
 )
 
-COMMENT_MARKS = ("#", "%", "//")
-TUM_COLUMNS = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
-_BOMS = {
-    b"\xef\xbb\xbf": "utf-8-sig",
-    b"\xff\xfe": "utf-16",
-    b"\xfe\xff": "utf-16",
-}
+MAX_LINES = 4 * MAX_POSES
+"""Most lines in a text file, comments and empty ones among them."""
+
+MAX_LINE_BYTES = 10_000
+"""Longest line, bytes."""
+
+COMMENT_MARKS = (b"#", b"%", b"//")
+_MAX_COMMENTS = 100
+_BOM_8, _BOMS_16 = b"\xef\xbb\xbf", (b"\xff\xfe", b"\xfe\xff")
 # A quotation longer than this, from hostile bytes, is cut.
 _QUOTE_LENGTH = 20
+# 1,234 may be a little over one, or a thousand and more.
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+
+Line = tuple[int, str]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -36,7 +47,11 @@ class _Layout:
     def split(self, line: str) -> list[str]:
         if self.delimiter is None:
             return line.split()
-        row = next(csv.reader([line], delimiter=self.delimiter, skipinitialspace=True))
+        if '"' in line:
+            reader = csv.reader([line], delimiter=self.delimiter, skipinitialspace=True)
+            row = next(reader)
+        else:
+            row = line.split(self.delimiter)
         fields = [field.strip() for field in row]
         # A delimiter at the end of a line opens no further column.
         return fields[:-1] if len(fields) > 1 and not fields[-1] else fields
@@ -45,12 +60,86 @@ class _Layout:
         return text.replace(",", ".") if self.decimal_comma else text
 
 
+@dataclass(eq=False)
+class _Commas:
+    """Whether the commas of a file separate decimals, as far as it shows."""
+
+    doubtful: tuple[int, str] | None = None
+    are_decimal: bool = False
+    has_point: bool = False
+
+    def look(self, text: str, line: int) -> None:
+        self.has_point |= "." in text
+        if "," not in text:
+            return
+        if not _THOUSANDS.fullmatch(text):
+            self.are_decimal = True
+        elif self.doubtful is None:
+            self.doubtful = line, text
+
+    def check(self, name: str) -> None:
+        if self.doubtful and (self.has_point or not self.are_decimal):
+            line, text = self.doubtful
+            raise TrajectoryError(
+                f"{name}, line {line}: '{text}' may be {text.replace(',', '.')} or "
+                f"{text.replace(',', '')}; write numbers with a decimal point"
+            )
+
+
+@dataclass(eq=False, kw_only=True)
+class _Reader:
+    """The lines of a file, read one after another."""
+
+    name: str
+    layout: _Layout
+    columns: PoseColumns
+    n_fields: int | None  # None: as many as the columns need
+    commas: _Commas = field(default_factory=_Commas)
+
+    def values(self, lines: Sequence[tuple[int, bytes]]) -> FloatArray:
+        """Return the chosen columns as float64, shape (S, len(indices))."""
+        values = array("d")
+        for number, raw in lines:
+            values.extend(self._row(number, self._fields(number, _text(raw))))
+        self.commas.check(self.name)
+        return np.array(values).reshape(-1, len(self.columns.indices))
+
+    def _fields(self, line: int, text: str) -> list[str]:
+        try:
+            fields = self.layout.split(text)
+        except csv.Error as error:
+            raise TrajectoryError(
+                f"{self.name}, line {line} is no row of a table ({error})"
+            ) from None
+        needed = self.n_fields or max(self.columns.indices) + 1
+        if len(fields) < needed or (self.n_fields and len(fields) > needed):
+            raise TrajectoryError(
+                f"{self.name}, line {line}: {needed} columns are needed; "
+                f"got {len(fields)}: {_quoted(fields)}"
+            )
+        return fields
+
+    def _row(self, line: int, fields: list[str]) -> Iterator[float]:
+        for index, title in zip(self.columns.indices, self.columns.titles, strict=True):
+            text = fields[index]
+            if self.layout.decimal_comma:
+                self.commas.look(text, line)
+            value = _number(self.layout.number(text))
+            if value is None or not np.isfinite(value):
+                raise TrajectoryError(
+                    f"{self.name}, line {line}: {title} must be a finite number; "
+                    f"got {_quoted([text])}"
+                )
+            yield value
+
+
 def parse_text(data: bytes, name: str) -> TrajectoryTable:
     """Return the poses in a text file.
 
     Columns are separated by commas, semicolons, tabs or spaces. A header line (or a
     comment that names the columns) may give them in any order, among others; without
-    one there are three, x, y, theta, or the eight of the TUM format.
+    one there are three, x, y, theta, the eight of the TUM format or the twelve of
+    KITTI's.
 
     Parameters
     ----------
@@ -68,28 +157,23 @@ def parse_text(data: bytes, name: str) -> TrajectoryTable:
     TrajectoryError
         Where a line cannot be read; the message gives its number.
     """
-    lines, comments = _lines(decode(data, name))
+    lines, comments = _lines(data, name)
     if not lines:
         check_count(0, name)
-    layout = _layout(lines)
-    titles = _titles(lines, comments, layout)
-    if titles and titles[0] is lines[0]:
-        lines = lines[1:]
-        if not lines:
-            _header_columns(titles[1], name)  # a wrong header is the better message
+    layout = _layout([_text(raw) for _, raw in lines[:2]])
+    first = layout.split(_text(lines[0][1]))
+    header, is_line = _header(first, comments, layout, len(first))
+    lines = lines[is_line:]
+    if header:
+        columns = _named(header, name)
+        check_count(len(lines), name)
+        reader = _Reader(name=name, layout=layout, columns=columns, n_fields=None)
+        return table_from(columns.poses(reader.values(lines)), columns.units, name)
     check_count(len(lines), name)
-    try:
-        rows = [layout.split(text) for _, text in lines]
-    except csv.Error as error:
-        raise TrajectoryError(f"{name} is not a table of numbers ({error})") from None
-    numbers = [number for number, _ in lines]
-    header = titles[1] if titles else []
-    if _is_tum(rows[0], header, name):
-        values = _numbers(rows, range(8), TUM_COLUMNS, numbers, layout, name)
-        return table_from(_planar(values, numbers, name), {"theta": "rad"}, name)
-    indices, units = _columns(rows[0], header, numbers[0], name)
-    values = _numbers(rows, indices, ("x", "y", "theta"), numbers, layout, name)
-    return table_from(values, units, name)
+    columns = bare_columns(len(first), f"{name}, line {lines[0][0]}", _quoted(first))
+    reader = _Reader(name=name, layout=layout, columns=columns, n_fields=len(first))
+    poses, units = bare_poses(reader.values(lines), [n for n, _ in lines], name)
+    return table_from(poses, units, name)
 
 
 def decode(data: bytes, name: str) -> str:
@@ -111,34 +195,60 @@ def decode(data: bytes, name: str) -> str:
     TrajectoryError
         Where the bytes are no text.
     """
-    encoding = next((code for mark, code in _BOMS.items() if data.startswith(mark)), "")
+    return _text(_as_utf8(data, name))
+
+
+def _as_utf8(data: bytes, name: str) -> bytes:
+    """Return a text file's bytes without mark, in UTF-8 or Latin-1."""
     try:
-        text = data.decode(encoding or "utf-8")
-    except UnicodeDecodeError:
-        text = "" if encoding else data.decode("latin-1")
-    if not text or "\0" in text or text.startswith(("PK\3\4", "\x80")):
+        if data.startswith(_BOMS_16):
+            data = data.decode("utf-16").encode("utf-8")
+    except ValueError:
+        data = b""
+    data = data.removeprefix(_BOM_8)
+    if not data or b"\0" in data or data.startswith(b"\x80"):
         raise TrajectoryError(
             f"{name} is not a text file; allowed are CSV or plain text (UTF-8), "
-            f"NPY, MAT, JSON and TUM"
+            "NPY, MAT, JSON and TUM"
         )
-    return text
+    return data
 
 
-def _lines(text: str) -> tuple[list[tuple[int, str]], list[tuple[int, str]]]:
-    """Return the lines with content, and the comments, each with its number."""
-    lines, comments = [], []
-    for number, line in enumerate(text.splitlines(), start=1):
-        line = line.strip(" \r\n\f\v\ufeff")
+def _text(raw: bytes) -> str:
+    try:
+        return raw.decode("utf-8")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+def _lines(data: bytes, name: str) -> tuple[list[tuple[int, bytes]], list[Line]]:
+    """Return the lines with content, and the first comments, each with its number."""
+    data = _as_utf8(data, name)
+    n_lines = data.count(b"\n") + data.count(b"\r")
+    if n_lines > 2 * MAX_LINES:  # each may end in both
+        raise TrajectoryError(
+            f"{name} has about {n_lines:,} lines; at most {MAX_LINES:,} are allowed"
+        )
+    lines: list[tuple[int, bytes]] = []
+    comments: list[Line] = []
+    for number, raw in enumerate(data.splitlines(), start=1):
+        if len(raw) > MAX_LINE_BYTES:
+            raise TrajectoryError(
+                f"{name}, line {number} has {len(raw):,} bytes; at most "
+                f"{MAX_LINE_BYTES:,} are allowed"
+            )
+        line = raw.strip(b" \f\v")
         if line.startswith(COMMENT_MARKS):
-            comments.append((number, line.lstrip("#%/ ")))
+            if len(comments) < _MAX_COMMENTS:
+                comments.append((number, _text(line.lstrip(b"#%/ "))))
         elif line.strip():
             lines.append((number, line))
     return lines, comments
 
 
-def _layout(lines: list[tuple[int, str]]) -> _Layout:
+def _layout(lines: list[str]) -> _Layout:
     """Tell the delimiter by the first line of numbers, else by the first line."""
-    line = next((text for _, text in lines if text[0] in "+-.0123456789"), lines[0][1])
+    line = next((text for text in lines if text[0] in "+-.0123456789"), lines[0])
     words = line.split()
     if ";" in line:
         return _Layout(delimiter=";", decimal_comma=True)
@@ -150,109 +260,47 @@ def _layout(lines: list[tuple[int, str]]) -> _Layout:
     return _Layout(delimiter=None, decimal_comma=True)
 
 
-def _titles(
-    lines: list[tuple[int, str]], comments: list[tuple[int, str]], layout: _Layout
-) -> tuple[tuple[int, str], list[str]] | None:
-    """Return the line that names the columns, and its titles; None without one."""
-    fields = layout.split(lines[0][1])
-    if not any(_is_number(layout.number(field)) for field in fields):
-        return lines[0], fields
-    for comment in comments:
-        titles = layout.split(comment[1])
-        if find_columns(titles) or {"qx", "qy", "qz", "qw"} <= set(titles):
-            return comment, titles
-    return None
+def _header(
+    first: list[str], comments: list[Line], layout: _Layout, n_fields: int
+) -> tuple[list[str], bool]:
+    """Return the titles of the columns, and whether the first line gives them.
+
+    A comment does where it names the columns, or where it is a row of as many fields
+    as the table and not a sentence.
+    """
+    if not any(_number(layout.number(text)) is not None for text in first):
+        return first, True
+    for _, comment in comments:
+        titles = layout.split(comment)
+        axes = {column_axis(title)[0] for title in titles}
+        is_row = len(titles) == n_fields > 1
+        is_table = layout.delimiter is not None or {"x", "y"} <= axes
+        if find_columns(titles) or (is_row and is_table):
+            return titles, False
+    return [], False
 
 
-def _is_number(text: str) -> bool:
+def _named(header: list[str], name: str) -> PoseColumns:
+    columns = find_columns(header)
+    if columns is None:
+        raise TrajectoryError(
+            f"the header of {name} must name the columns x, y and theta (or x_px, "
+            "y_px, theta_deg or theta_rad), or x, y, qx, qy, qz and qw; "
+            f"got {_quoted(header)}"
+        )
+    return columns
+
+
+def _number(text: str) -> float | None:
     try:
-        float(text)
+        return None if "_" in text else float(text)
     except ValueError:
-        return False
-    return True
-
-
-def _is_tum(row: list[str], header: list[str], name: str) -> bool:
-    if len(row) != len(TUM_COLUMNS):
-        return False
-    if header and "qw" not in (title.lower() for title in header):
-        return name.lower().endswith(".tum")
-    return True
-
-
-def _columns(
-    row: list[str], header: list[str], line: int, name: str
-) -> tuple[list[int], dict[str, str]]:
-    """Return where x, y and theta stand in a row, and their units."""
-    if header:
-        return _header_columns(header, name)
-    if len(row) != 3:
-        raise TrajectoryError(
-            f"{name}, line {line}: three columns x, y, theta are needed, or a header "
-            f"that names them; got {len(row)} column{'s' * (len(row) != 1)}: "
-            f"{_quoted(row)}"
-        )
-    return [0, 1, 2], {}
-
-
-def _header_columns(header: list[str], name: str) -> tuple[list[int], dict[str, str]]:
-    found = find_columns(header)
-    if found is None:
-        raise TrajectoryError(
-            f"the header of {name} must name the columns x, y and theta "
-            f"(or x_px, y_px, theta_deg or theta_rad); got {_quoted(header)}"
-        )
-    return found
-
-
-def _numbers(
-    rows: list[list[str]],
-    indices: Sequence[int],
-    titles: Sequence[str],
-    line_numbers: list[int],
-    layout: _Layout,
-    name: str,
-) -> FloatArray:
-    """Return the chosen columns as float64, shape (S, len(indices))."""
-    needed = max(indices) + 1
-    for row, line in zip(rows, line_numbers, strict=True):
-        if len(row) < needed:
-            raise TrajectoryError(
-                f"{name}, line {line}: {needed} columns are needed; "
-                f"got {len(row)}: {_quoted(row)}"
-            )
-    texts = [[layout.number(row[i]) for i in indices] for row in rows]
-    try:
-        values = np.array(texts, dtype=np.float64)
-    except ValueError:
-        values = np.full((len(texts), len(indices)), np.nan)
-    bad = np.flatnonzero(~np.isfinite(values).all(axis=1))
-    for k in bad:
-        for text, title in zip(texts[k], titles, strict=True):
-            if not _is_number(text) or not np.isfinite(float(text)):
-                raise TrajectoryError(
-                    f"{name}, line {line_numbers[k]}: {title} must be a finite "
-                    f"number; got {_quoted([text])}"
-                )
-    return values
-
-
-def _planar(tum: FloatArray, line_numbers: list[int], name: str) -> FloatArray:
-    """Return x, y and yaw of TUM rows of shape (S, 8); height and tilt are dropped."""
-    _, x, y, _, qx, qy, qz, qw = tum.T
-    zero = np.flatnonzero(np.hypot(np.hypot(qx, qy), np.hypot(qz, qw)) < 1e-6)
-    if zero.size:
-        raise TrajectoryError(
-            f"{name}, line {line_numbers[zero[0]]}: the quaternion qx qy qz qw must "
-            "not be zero; got 0 0 0 0"
-        )
-    yaw = np.arctan2(2.0 * (qw * qz + qx * qy), qw**2 + qx**2 - qy**2 - qz**2)
-    return np.stack([x, y, yaw], axis=1)
+        return None
 
 
 def _quoted(fields: Sequence[str]) -> str:
     shown = [
-        f"'{field[:_QUOTE_LENGTH]}{'...' * (len(field) > _QUOTE_LENGTH)}'"
+        f"'{printable(field[:_QUOTE_LENGTH])}{'...' * (len(field) > _QUOTE_LENGTH)}'"
         for field in fields[:8]
     ]
     return ", ".join(shown) + (", ..." if len(fields) > 8 else "")
