@@ -108,17 +108,17 @@ def _parser() -> argparse.ArgumentParser:
     study.add_argument(
         "--range-px", type=float, default=20.0, help="reach for image files, px (20)"
     )
-    for name, kind, words in (
-        ("--rule", UpdateRule, "how a reading enters the map"),
-        ("--region", Region, "which cells are scored"),
-        ("--behind-hit", BehindHit, "what is said of pixels behind a wall"),
+    usual = StudySettings()
+    for name, default, words in (
+        ("--rule", usual.rule, "how a reading enters the map"),
+        ("--region", usual.region, "which cells are scored"),
+        ("--behind-hit", usual.behind_hit, "what is said of pixels behind a wall"),
     ):
-        values = [choice.value for choice in kind]
         study.add_argument(
             name,
-            choices=values,
-            default=values[0],
-            help=f"{words} ({values[0]})",
+            choices=[choice.value for choice in type(default)],
+            default=default.value,
+            help=f"{words} ({default.value})",
         )
     return parser
 
