@@ -7,7 +7,8 @@ map is, and which priors are best.
 """
 
 from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
-from occsim.evidence import EvidenceLog, collect_evidence
+from occsim.evidence import collect_evidence, collect_totals, stream_evidence
+from occsim.evidence_log import EvidenceLog, EvidenceTotals
 from occsim.grid import Grid
 from occsim.imaging import Drawing, load_drawing
 from occsim.io.trajectories import TrajectoryFormat, dump_trajectory, load_trajectory
@@ -66,6 +67,7 @@ __all__ = [
     "DrawingError",
     "Elitism",
     "EvidenceLog",
+    "EvidenceTotals",
     "Generation",
     "Grid",
     "HeadingMode",
@@ -94,6 +96,7 @@ __all__ = [
     "World",
     "build_prior",
     "collect_evidence",
+    "collect_totals",
     "coverage",
     "default_tour",
     "detect_walls",
@@ -126,6 +129,7 @@ __all__ = [
     "score",
     "scores_by_reading",
     "set_c",
+    "stream_evidence",
     "surface_front",
     "sweep_priors",
     "truth_cells",

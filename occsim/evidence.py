@@ -1,13 +1,14 @@
 """The evidence log: what the readings say, before any prior."""
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
 
 from occsim._types import FloatArray, IntArray, Progress
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, expect
+from occsim.evidence_log import EvidenceLog, EvidenceTotals
 from occsim.grid import Grid
 from occsim.rays.cull import without_hidden
 from occsim.rays.faces import SideFaces, wall_faces
@@ -34,86 +35,6 @@ in the processor's cache is faster, and memory does not grow with the trajectory
 
 MANY_FACES = 100
 """Faces in view of a reading from which on it pays to look for hidden ones first."""
-
-
-@dataclass(frozen=True, eq=False)
-class EvidenceLog:
-    """Per reading, the cells that it updated and their log-odds.
-
-    Parameters
-    ----------
-    grid : Grid
-        The cells.
-    indptr : ndarray of int64, shape (S + 1,)
-        Reading s owns the entries ``indptr[s]:indptr[s + 1]``.
-    cell : ndarray of int32, shape (N,)
-        Flat row-major cell of each entry; one entry per cell and reading.
-    log_odds : ndarray of float64, shape (N,)
-        ``logit(p_free(reading))`` of Eq. 4.22, nats.
-    """
-
-    grid: Grid
-    indptr: IntArray
-    cell: npt.NDArray[np.int32]
-    log_odds: FloatArray
-
-    @property
-    def n_readings(self) -> int:
-        """Number S of readings."""
-        return self.indptr.size - 1
-
-    @cached_property
-    def reading(self) -> npt.NDArray[np.int32]:
-        """Reading of each entry, ndarray of int32 of shape (N,)."""
-        return np.repeat(
-            np.arange(self.n_readings, dtype=np.int32), np.diff(self.indptr)
-        )
-
-    def totals(self, n_readings: int | None = None) -> tuple[FloatArray, IntArray]:
-        """Return the sum and the number of each cell's readings.
-
-        Parameters
-        ----------
-        n_readings : int, optional
-            Only the first ones, 0 to S; all by default.
-
-        Returns
-        -------
-        sums : ndarray of float64, shape (R, C)
-            Summed log-odds S of the readings, nats.
-        counts : ndarray of int64, shape (R, C)
-            Number k of readings.
-
-        Raises
-        ------
-        ParameterError
-            Where there are not that many readings.
-        """
-        if n_readings is None or n_readings == self.n_readings:
-            return self._all_totals
-        whole = isinstance(n_readings, (int, np.integer))
-        if not whole or not 0 <= n_readings <= self.n_readings:
-            raise ParameterError(
-                f"n_readings must be a whole number, 0 to {self.n_readings}; "
-                f"got {n_readings!r}"
-            )
-        return self._sum_entries(int(self.indptr[n_readings]))
-
-    @cached_property
-    def _all_totals(self) -> tuple[FloatArray, IntArray]:
-        # Every prior that is tried on this log needs the same two arrays.
-        return self._sum_entries(self.cell.size)
-
-    def _sum_entries(self, n_entries: int) -> tuple[FloatArray, IntArray]:
-        cell, size = self.cell[:n_entries], self.grid.n_cells
-        weights = self.log_odds[:n_entries]
-        sums: FloatArray = np.bincount(cell, weights=weights, minlength=size).astype(
-            np.float64, copy=False
-        )
-        counts = np.bincount(cell, minlength=size).astype(np.int64)
-        for array in (sums, counts):
-            array.setflags(write=False)
-        return sums.reshape(self.grid.shape), counts.reshape(self.grid.shape)
 
 
 def collect_evidence(
@@ -144,8 +65,15 @@ def collect_evidence(
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type.
     ParameterError
         Where the grid does not have the size of the world.
+
+    See Also
+    --------
+    collect_totals : only sums and counts, in memory that does not grow.
+    stream_evidence : the same log in parts.
 
     Notes
     -----
@@ -166,25 +94,143 @@ def collect_evidence(
     .. [1] C. Georgiou, "Constructing informative Bayesian priors to improve SLAM map
        quality", sec. 4.5; C. Georgiou, S. Anderson and T. Dodd, IJRR 2017,
        doi 10.1177/0278364916687027.
+
+    Examples
+    --------
+    >>> from occsim import collect_evidence, load_sample
+    >>> sample = load_sample("d")
+    >>> grid = sample.world.grid(5)
+    >>> log = collect_evidence(sample.world, sample.trajectory, sample.sensor, grid)
+    >>> log.n_readings == len(sample.trajectory)
+    True
     """
+    parts = list(stream_evidence(world, trajectory, sensor, grid, on_progress))
+    if len(parts) == 1:
+        return parts[0]
+    sizes, cell, log_odds = (
+        np.concatenate(arrays)
+        for arrays in zip(
+            *((np.diff(part.indptr), part.cell, part.log_odds) for part in parts),
+            strict=True,
+        )
+    )
+    return EvidenceLog.known_sound(grid, _ends(sizes), cell, log_odds)
+
+
+def collect_totals(
+    world: World,
+    trajectory: Trajectory,
+    sensor: Sensor,
+    grid: Grid,
+    on_progress: Progress | None = None,
+) -> EvidenceTotals:
+    """Return the sum and the number of each cell's readings along a trajectory.
+
+    What `collect_evidence` gives, without the single readings: memory does not grow
+    with the trajectory. `fuse`, sweeps and fronts take it in place of a log.
+
+    Parameters
+    ----------
+    world, trajectory, sensor, grid, on_progress
+        As in `collect_evidence`.
+
+    Returns
+    -------
+    EvidenceTotals
+
+    Raises
+    ------
+    TypeError, ParameterError
+        As in `collect_evidence`.
+
+    Examples
+    --------
+    >>> from occsim import Prior, build_prior, collect_totals, fuse, load_sample
+    >>> sample = load_sample("d")
+    >>> grid = sample.world.grid(5)
+    >>> seen = collect_totals(sample.world, sample.trajectory, sample.sensor, grid)
+    >>> fuse(seen, build_prior(sample.world.occupied, grid, Prior())).n_updates.shape
+    (48, 60)
+    """
+    parts = stream_evidence(world, trajectory, sensor, grid, on_progress)
+    sums, counts = np.zeros(grid.shape), np.zeros(grid.shape, dtype=np.int64)
+    for part in parts:
+        part_sums, part_counts = part.totals()
+        sums += part_sums
+        counts += part_counts
+    return EvidenceTotals(grid, sums, counts)
+
+
+def stream_evidence(
+    world: World,
+    trajectory: Trajectory,
+    sensor: Sensor,
+    grid: Grid,
+    on_progress: Progress | None = None,
+) -> Iterator[EvidenceLog]:
+    """Yield the log of a trajectory in parts, each of a few consecutive readings.
+
+    Parameters
+    ----------
+    world, trajectory, sensor, grid, on_progress
+        As in `collect_evidence`.
+
+    Yields
+    ------
+    EvidenceLog
+        Laid end to end, the parts are the log of `collect_evidence`.
+
+    Raises
+    ------
+    TypeError, ParameterError
+        As in `collect_evidence`, at once.
+    """
+    for name, value, kind in (
+        ("world", world, World),
+        ("trajectory", trajectory, Trajectory),
+        ("sensor", sensor, Sensor),
+        ("grid", grid, Grid),
+    ):
+        expect(name, value, kind)
     if (grid.height_px, grid.width_px) != world.shape:
         raise ParameterError(
             f"grid must cover the world of {world.shape} px; got "
             f"({grid.height_px}, {grid.width_px}) px"
         )
-    faces = wall_faces(world.occupied)
-    parts = []
+    return _parts(world, trajectory, sensor, grid, on_progress)
+
+
+def _parts(
+    world: World,
+    trajectory: Trajectory,
+    sensor: Sensor,
+    grid: Grid,
+    on_progress: Progress | None,
+) -> Iterator[EvidenceLog]:
+    faces = _faces_of(world)
     for batch in _batches(len(trajectory), sensor, grid, faces):
         view = View.of(trajectory.poses[batch], sensor)
-        parts.append(_read(world, faces, view, sensor, grid))
+        sizes, cell, log_odds = _read(world, faces, view, sensor, grid)
+        yield EvidenceLog.known_sound(grid, _ends(sizes), cell, log_odds)
         if on_progress is not None:
             on_progress(batch.stop, len(trajectory))
-    sizes, cells, log_odds = (np.concatenate(part) for part in zip(*parts, strict=True))
-    indptr = np.concatenate([[0], np.cumsum(sizes)])
-    for array in (indptr, cells, log_odds):
-        # The log remembers its totals: entries must not change under them.
-        array.setflags(write=False)
-    return EvidenceLog(grid=grid, indptr=indptr, cell=cells, log_odds=log_odds)
+
+
+def _ends(sizes: IntArray) -> IntArray:
+    indptr = np.zeros(sizes.size + 1, dtype=np.int64)
+    np.cumsum(sizes, out=indptr[1:])
+    return indptr
+
+
+_faces: WeakKeyDictionary[World, tuple[SideFaces, ...]] = WeakKeyDictionary()
+
+
+def _faces_of(world: World) -> tuple[SideFaces, ...]:
+    # Worlds never change: one that is asked pose by pose keeps its faces.
+    faces = _faces.get(world)
+    if faces is None:
+        faces = _faces[world] = wall_faces(world.occupied)
+    return faces
 
 
 def _batches(

@@ -28,9 +28,17 @@ def wrap_angle(angle_rad: npt.ArrayLike) -> FloatArray:
     -------
     ndarray of float64, the shape of `angle_rad`
         Equivalent angles, rad.
+
+    Examples
+    --------
+    >>> from occsim.geometry import wrap_angle
+    >>> wrap_angle([0.0, np.pi, 7.0]).round(3)
+    array([ 0.   , -3.142,  0.717])
     """
     angle = np.asarray(angle_rad, dtype=np.float64)
-    return np.asarray(np.mod(angle + np.pi, 2.0 * np.pi) - np.pi, dtype=np.float64)
+    wrapped = np.mod(angle + np.pi, 2.0 * np.pi) - np.pi
+    # What lies within an ulp below -pi comes out as pi itself.
+    return np.asarray(np.where(wrapped >= np.pi, -np.pi, wrapped), dtype=np.float64)
 
 
 def snap_heading(theta_rad: npt.ArrayLike) -> FloatArray:
@@ -46,6 +54,12 @@ def snap_heading(theta_rad: npt.ArrayLike) -> FloatArray:
     ndarray of float64, the shape of `theta_rad`
         One of `CARDINAL_HEADINGS_RAD` for each; half-way goes to the next one
         clockwise on the screen.
+
+    Examples
+    --------
+    >>> from occsim.geometry import snap_heading
+    >>> snap_heading([0.1, -1.5]).round(3)
+    array([0.   , 4.712])
     """
     quarter = 0.5 * np.pi
     turns = np.floor(np.asarray(theta_rad, dtype=np.float64) / quarter + 0.5)

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, bool_array, expect, whole_number
 
 MAX_SIZE_PX = 2**31 - 1
 """Largest side of an image or a cell, px: what the array library counts with."""
@@ -27,6 +27,12 @@ class Grid:
     ------
     ParameterError
         Where a size is not a whole number from 1 to `MAX_SIZE_PX`.
+
+    Examples
+    --------
+    >>> from occsim import Grid
+    >>> Grid(height_px=7, width_px=10, cell_px=3).shape
+    (3, 4)
     """
 
     height_px: int
@@ -35,17 +41,8 @@ class Grid:
 
     def __post_init__(self) -> None:
         for name in ("height_px", "width_px", "cell_px"):
-            value = getattr(self, name)
-            whole = isinstance(value, (int, np.integer))
-            if not whole or isinstance(value, bool) or value < 1:
-                raise ParameterError(
-                    f"{name} must be a whole number of at least 1; got {value!r}"
-                )
-            if value > MAX_SIZE_PX:
-                raise ParameterError(
-                    f"{name} must be at most {MAX_SIZE_PX:,}; got {value!r}"
-                )
-            object.__setattr__(self, name, int(value))
+            value = whole_number(name, getattr(self, name), 1, MAX_SIZE_PX)
+            object.__setattr__(self, name, value)
 
     @property
     def n_rows(self) -> int:
@@ -81,13 +78,13 @@ class Grid:
         widths[-1] = self.width_px - (self.n_cols - 1) * self.cell_px
         return heights[:, None] * widths[None, :]
 
-    def share(self, mask: npt.NDArray[np.generic]) -> FloatArray:
+    def share(self, mask: npt.ArrayLike) -> FloatArray:
         """Return the share of true pixels in each cell.
 
         Parameters
         ----------
-        mask : ndarray of bool, shape (H, W)
-            One flag a pixel; numbers count as true where they are not zero.
+        mask : array_like of bool, shape (H, W)
+            One flag a pixel.
 
         Returns
         -------
@@ -96,15 +93,12 @@ class Grid:
 
         Raises
         ------
+        TypeError
+            Where the mask is not bool.
         ParameterError
-            Where the mask does not have the size of the image.
+            Where it does not have the size of the image.
         """
-        flags = np.asarray(mask) != 0
-        if flags.shape != (self.height_px, self.width_px):
-            raise ParameterError(
-                f"mask must have shape ({self.height_px}, {self.width_px}); "
-                f"got {flags.shape}"
-            )
+        flags = bool_array("mask", mask, (self.height_px, self.width_px))
         row_starts = np.arange(0, self.height_px, self.cell_px)
         col_starts = np.arange(0, self.width_px, self.cell_px)
         # Rows first: int32 sums over contiguous memory, then the few columns.
@@ -133,14 +127,14 @@ class Grid:
         return np.asarray(np.where(inside, row * self.n_cols + col, -1), dtype=np.int64)
 
 
-def cells_of(name: str, flags: npt.ArrayLike, grid: Grid) -> BoolArray:
+def cells_of(name: str, cells: npt.ArrayLike, grid: Grid) -> BoolArray:
     """Return one truth value a cell, once it is known to be that.
 
     Parameters
     ----------
     name : str
         What to call the values in a message.
-    flags : array_like of bool, shape (R, C)
+    cells : array_like of bool, shape (R, C)
         The values.
     grid : Grid
         The cells.
@@ -151,13 +145,33 @@ def cells_of(name: str, flags: npt.ArrayLike, grid: Grid) -> BoolArray:
 
     Raises
     ------
-    ParameterError
-        Where the shape or type is another.
+    TypeError, ParameterError
+        Where the type or the shape is another.
     """
-    array = np.asarray(flags)
-    if array.shape != grid.shape or array.dtype != np.bool_:
-        raise ParameterError(
-            f"{name} must be bool of the grid's shape {grid.shape}; "
-            f"got {array.dtype} of shape {array.shape}"
-        )
-    return array
+    expect("grid", grid, Grid)
+    return bool_array(name, cells, grid.shape)
+
+
+def same_grid(**grids: Grid) -> Grid:
+    """Return the grid that several things share.
+
+    Parameters
+    ----------
+    **grids : Grid
+        The grid of each, by the name of the thing.
+
+    Returns
+    -------
+    Grid
+
+    Raises
+    ------
+    ParameterError
+        Where they differ.
+    """
+    first, *others = grids.values()
+    if any(grid != first for grid in others):
+        names = " and ".join(grids).replace("_", " ")
+        got = " and ".join(map(str, grids.values()))
+        raise ParameterError(f"{names} must lie on the same grid; got {got}")
+    return first

@@ -4,19 +4,25 @@ Positive means wall. A cell is declared wall where :func:`occsim.logodds.is_occu
 says so: ties are not. A measure that is undefined is NaN.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError, require_choice
-from occsim.evidence import EvidenceLog
-from occsim.grid import cells_of
+from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
+from occsim.errors import choice, expect
+from occsim.evidence_log import EvidenceLog
+from occsim.grid import cells_of, same_grid
 from occsim.logodds import is_occupied
-from occsim.mapping import OccupancyMap, UpdateRule, prior_weight
+from occsim.mapping import OccupancyMap, UpdateRule
 from occsim.prior import PriorMap
+
+ENTRIES_AT_ONCE = 1 << 16
+"""Entries whose changes are counted together: bounds the memory of `scores_by_reading`,
+and they stay in the processor's cache."""
 
 
 class Region(Enum):
@@ -116,8 +122,8 @@ class Scores:
         return float(ratio(right, right + self.fp + self.fn))
 
 
-@dataclass(frozen=True, eq=False)
-class ScoreCurves:
+@dataclass(frozen=True, eq=False, repr=False)
+class ScoreCurves(ShortRepr):
     """Scores after 0, 1, ..., S readings.
 
     Parameters
@@ -180,13 +186,24 @@ def score(
 
     Raises
     ------
+    TypeError
+        Where the map is no `OccupancyMap`, or the truth not bool.
     ParameterError
         Where the shapes differ or the region is no `Region`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, OccupancyMap, score
+    >>> grid = Grid(height_px=1, width_px=3, cell_px=1)
+    >>> seen = OccupancyMap(grid, np.array([[-1.0, -1.0, 1.0]]), np.array([[1, 1, 1]]))
+    >>> score(seen, [[True, False, False]])
+    Scores(tp=1, fp=1, fn=0, tn=1)
     """
-    require_choice("region", region, Region)
+    expect("occupancy_map", occupancy_map, OccupancyMap)
     truth = cells_of("truth", truth, occupancy_map.grid)
     outcome = _outcome(is_occupied(occupancy_map.log_odds), truth)
-    if region is Region.EXPLORED:
+    if choice("region", region, Region) is Region.EXPLORED:
         outcome = outcome[occupancy_map.n_updates > 0]
     tn, fp, fn, tp = np.bincount(outcome.ravel(), minlength=4).tolist()
     return Scores(tp=tp, fp=fp, fn=fn, tn=tn)
@@ -194,6 +211,7 @@ def score(
 
 def coverage(occupancy_map: OccupancyMap) -> float:
     """Return the share of cells that at least one reading updated."""
+    expect("occupancy_map", occupancy_map, OccupancyMap)
     return float(np.mean(occupancy_map.n_updates > 0))
 
 
@@ -210,6 +228,7 @@ def mean_entropy_bits(occupancy_map: OccupancyMap) -> float:
     float
         1 where every cell is at one half, towards 0 as cells become certain.
     """
+    expect("occupancy_map", occupancy_map, OccupancyMap)
     # In log-odds l the entropy is ln(1 + e^-|l|) + |l| / (1 + e^|l|) nats, which
     # stays finite where p itself would round to 1.
     size = np.abs(occupancy_map.log_odds)
@@ -220,26 +239,28 @@ def mean_entropy_bits(occupancy_map: OccupancyMap) -> float:
 
 
 def scores_by_reading(
-    evidence: EvidenceLog,
+    evidence: EvidenceLog | Iterable[EvidenceLog],
     prior_map: PriorMap,
     truth: BoolArray,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
 ) -> ScoreCurves:
     """Return the scores of the map after every reading.
 
-    Equal to `fuse` and `score` at each ``n_readings``, in one pass: an entry of the
-    log changes the state of one cell, so the counts are running sums of changes.
+    Equal to `fuse` and `score` at each ``n_readings``, in one pass and in memory that
+    grows with the number of readings, not of entries: every reading moves a few cells
+    from one count to another.
 
     Parameters
     ----------
-    evidence : EvidenceLog
-        What S readings said.
+    evidence : EvidenceLog or iterable of EvidenceLog
+        What S readings said, whole or in parts, as `stream_evidence` yields them for
+        logs that would not fit into memory.
     prior_map : PriorMap
         The prior on the same grid.
     truth : ndarray of bool, shape (R, C)
         Cells that are wall in truth.
-    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+    rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
     region : Region, default Region.EXPLORED
         Which cells count.
@@ -250,34 +271,118 @@ def scores_by_reading(
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type; totals, too, have no single readings.
     ParameterError
         Where grids or shapes differ, or the rule or region is no member of its enum.
+
+    Examples
+    --------
+    >>> from occsim import EvidenceLog, Grid, Prior, build_prior, logit
+    >>> from occsim import scores_by_reading
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> log = EvidenceLog(grid, [0, 1, 2], [0, 1], logit([0.1, 0.1]))
+    >>> walls = [[True, False]]
+    >>> scores_by_reading(log, build_prior(walls, grid, Prior()), walls).tp
+    array([0, 1, 1])
     """
-    if evidence.grid != prior_map.grid:
-        raise ParameterError(
-            "evidence and prior map must lie on the same grid; got "
-            f"{evidence.grid} and {prior_map.grid}"
-        )
-    require_choice("region", region, Region)
-    truth = cells_of("truth", truth, evidence.grid)
-    wall = truth.ravel()
-    start = _outcome(is_occupied(prior_map.log_odds).ravel(), wall)
-    order, first = _by_cell(evidence)
-    cell, step = evidence.cell[order], evidence.reading[order].astype(np.int64)
-    log_odds = _running_sums(evidence.log_odds[order], first)
-    log_odds += prior_weight(_visit(first), rule) * prior_map.log_odds.ravel()[cell]
-    after = _outcome(is_occupied(log_odds), wall[cell])
-    before = np.where(first, start[cell], np.roll(after, 1))
-    # Among the explored cells only, a cell's first entry takes it out of no state.
-    leaves = slice(None) if region is Region.ALL else ~first
-    n_readings = evidence.n_readings
-    changes = _tally(after, step, n_readings)
-    changes -= _tally(before[leaves], step[leaves], n_readings)
-    if region is Region.ALL:
-        changes[:, 0] = np.bincount(start, minlength=4)
-    tn, fp, fn, tp = np.cumsum(changes, axis=1)
-    explored = np.cumsum(np.bincount(step[first] + 1, minlength=n_readings + 1))
-    return ScoreCurves(tp, fp, fn, tn, coverage=explored / evidence.grid.n_cells)
+    expect("evidence", evidence, EvidenceLog, Iterable)
+    expect("prior_map", prior_map, PriorMap)
+    truth = cells_of("truth", truth, prior_map.grid)
+    tally = _Tally(
+        prior_map,
+        truth.ravel(),
+        once=choice("rule", rule, UpdateRule) is UpdateRule.PRIOR_ONCE,
+        everywhere=choice("region", region, Region) is Region.ALL,
+    )
+    changes = [tally.start()]
+    for part in [evidence] if isinstance(evidence, EvidenceLog) else evidence:
+        expect("evidence", part, EvidenceLog)
+        same_grid(evidence=part.grid, prior_map=prior_map.grid)
+        cuts = np.arange(0, part.cell.size, ENTRIES_AT_ONCE)
+        bounds = [0, *np.searchsorted(part.indptr, cuts).tolist(), part.n_readings]
+        for first, stop in pairwise(sorted(set(bounds))):
+            changes.append(tally.read(part, first, stop))
+    tn, fp, fn, tp, explored = np.cumsum(np.concatenate(changes, axis=1), axis=1)
+    return ScoreCurves(tp, fp, fn, tn, coverage=explored / prior_map.grid.n_cells)
+
+
+class _Tally:
+    """A map that is updated by its recursion, and how its scores change with it.
+
+    Parameters
+    ----------
+    prior_map : PriorMap
+        Where the map starts.
+    wall : ndarray of bool, shape (R * C,)
+        Cells that are wall in truth.
+    once, everywhere : bool
+        Rule and region.
+    """
+
+    def __init__(
+        self, prior_map: PriorMap, wall: BoolArray, *, once: bool, everywhere: bool
+    ) -> None:
+        self._log_odds = prior_map.log_odds.ravel().copy()
+        self._taken_off = None if once else self._log_odds.copy()
+        self._wall, self._everywhere = wall, everywhere
+        self._explored = np.zeros(wall.size, dtype=np.bool_)
+
+    def start(self) -> IntArray:
+        """Return the counts of the bare prior, (5, 1): see `read`."""
+        outcome = _outcome(is_occupied(self._log_odds), self._wall)
+        counts = np.bincount(outcome, minlength=5) * self._everywhere
+        return counts.astype(np.int64, copy=False)[:, None]
+
+    def read(self, log: EvidenceLog, first: int, stop: int) -> IntArray:
+        """Return how readings `first` to `stop` - 1 change the counts.
+
+        Returns
+        -------
+        ndarray of int64, shape (5, stop - first)
+            True negatives, false positives, false negatives, true positives, and
+            cells explored: changes with each reading.
+        """
+        ends = log.indptr[first : stop + 1]
+        own = slice(ends[0], ends[-1])
+        ends = ends - ends[0]
+        cell, added = log.cell[own].astype(np.intp), log.log_odds[own]
+        if self._taken_off is not None:
+            added = added - self._taken_off[cell]
+        after = self._update(cell, added, ends)
+        # On the lattice the difference is exactly what stood there before.
+        occupied, before = is_occupied(after), is_occupied(after - added)
+        new = self._newly_explored(cell)
+        moved = np.flatnonzero((occupied != before) | new)
+        step, wall = np.searchsorted(ends, moved, "right") - 1, self._wall[cell[moved]]
+        arrives, leaves = (_outcome(x[moved], wall) for x in (occupied, before))
+        new = new[moved]
+        # Among the explored cells only, a cell's first reading takes it out of none.
+        left = slice(None) if self._everywhere else ~new
+        changes = _by_step(arrives, step, stop - first)
+        changes -= _by_step(leaves[left], step[left], stop - first)
+        changes[4] = np.bincount(step[new], minlength=stop - first)
+        return changes
+
+    def _update(self, cell: IntArray, added: FloatArray, ends: IntArray) -> FloatArray:
+        # l_k = l_(k-1) + logit(p_free(reading k)), less l_0 with SUBTRACT_PRIOR; a
+        # reading names a cell once.
+        after = np.empty_like(added)
+        for start, stop in pairwise(ends.tolist()):
+            own = cell[start:stop]
+            log_odds = self._log_odds[own]
+            log_odds += added[start:stop]
+            self._log_odds[own] = after[start:stop] = log_odds
+        return after
+
+    def _newly_explored(self, cell: IntArray) -> BoolArray:
+        new = ~self._explored[cell]
+        entry = np.flatnonzero(new)
+        cells, nth = np.unique(cell[entry], return_index=True)
+        self._explored[cells] = True
+        new[entry] = False
+        new[entry[nth]] = True
+        return new
 
 
 def _outcome(occupied: BoolArray, wall: BoolArray) -> IntArray:
@@ -285,46 +390,7 @@ def _outcome(occupied: BoolArray, wall: BoolArray) -> IntArray:
     return occupied + 2 * wall.astype(np.int64)
 
 
-def _tally(outcome: IntArray, step: IntArray, n_readings: int) -> IntArray:
-    # How often each outcome occurs at each reading, one column of zeros before them.
-    width = n_readings + 1
-    counts = np.bincount(outcome * width + step + 1, minlength=4 * width)
-    return counts.astype(np.int64, copy=False).reshape(4, width)
-
-
-def _by_cell(evidence: EvidenceLog) -> tuple[IntArray, BoolArray]:
-    # Entries of a cell side by side in the order of the readings, and where each
-    # cell's run begins. The smallest integer type that holds the cells sorts fastest.
-    small = evidence.cell.astype(np.min_scalar_type(evidence.grid.n_cells))
-    order = np.argsort(small, kind="stable")
-    first = np.diff(small[order], prepend=small[order][:1]) != 0
-    first[:1] = True
-    return order, first
-
-
-def _visit(first: BoolArray) -> IntArray:
-    # 1 for a cell's first entry, 2 for its second, ...
-    index = np.arange(first.size)
-    starts = np.flatnonzero(first)
-    return np.asarray(index - starts[np.cumsum(first) - 1] + 1, dtype=np.int64)
-
-
-def _running_sums(values: FloatArray, first: BoolArray) -> FloatArray:
-    """Return the sum of each run's values so far, ties exact.
-
-    One running sum over all runs, less its value before the run, would lose the small
-    digits in which ties live once a long log has made it large. In fixed point nothing
-    is lost: integer sums wrap, and their differences are right as long as a single
-    run's sum fits.
-    """
-    if not values.size:
-        return values.copy()
-    longest = float(_visit(first).max())
-    largest = max(float(np.abs(values).max()), 1.0)
-    # 62 bits for the largest possible sum of a run: at least 2^-40 nats for any log
-    # of fewer than a million readings of one cell.
-    scale = 2.0 ** np.floor(61.0 - np.log2(longest * largest))
-    fixed = np.rint(values * scale).astype(np.int64)
-    total = np.cumsum(fixed)
-    base = (total - fixed)[first]
-    return np.asarray((total - base[np.cumsum(first) - 1]) / scale, dtype=np.float64)
+def _by_step(outcome: IntArray, step: IntArray, n_steps: int) -> IntArray:
+    # How often each outcome occurs at each reading, and a row of zeros.
+    counts = np.bincount(outcome * n_steps + step, minlength=5 * n_steps)
+    return counts.astype(np.int64, copy=False).reshape(5, n_steps)

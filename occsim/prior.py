@@ -5,8 +5,8 @@ from typing import Self
 
 import numpy as np
 
-from occsim._types import BoolArray, FloatArray
-from occsim.errors import ParameterError, real_number
+from occsim._types import BoolArray, FloatArray, ShortRepr
+from occsim.errors import ParameterError, expect, real_array, real_number
 from occsim.grid import Grid, cells_of
 from occsim.logodds import logit
 from occsim.world import wall_cells
@@ -34,6 +34,12 @@ class Prior:
     ------
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import Prior
+    >>> round(Prior(p_wall=0.2, p_space=0.9).p_free_wall, 3)
+    0.18
     """
 
     p_wall: float = SOURCE_PAIR[0]
@@ -69,8 +75,8 @@ class Prior:
         return self.scale * self.p_space
 
 
-@dataclass(frozen=True, eq=False)
-class PriorMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class PriorMap(ShortRepr):
     """A prior laid over a grid.
 
     Parameters
@@ -80,16 +86,32 @@ class PriorMap:
     is_wall : ndarray of bool, shape (R, C)
         Cells in which the drawing shows a wall.
     p_free : ndarray of float64, shape (R, C)
-        Probability of free before the first reading.
+        Probability of free before the first reading, in (0, 1).
+
+    Raises
+    ------
+    TypeError, ParameterError
+        Where an array is of another type or shape, or a probability not in (0, 1).
     """
 
     grid: Grid
     is_wall: BoolArray
     p_free: FloatArray
 
+    def __post_init__(self) -> None:
+        is_wall = cells_of("is_wall", self.is_wall, self.grid)
+        p_free = real_array("p_free", self.p_free)
+        if p_free.shape != self.grid.shape or not ((p_free > 0) & (p_free < 1)).all():
+            raise ParameterError(
+                f"p_free must have shape {self.grid.shape} and lie in (0, 1); "
+                f"got shape {p_free.shape}, {p_free.min()} to {p_free.max()}"
+            )
+        object.__setattr__(self, "is_wall", is_wall)
+        object.__setattr__(self, "p_free", p_free)
+
     @property
     def log_odds(self) -> FloatArray:
-        """Log-odds l_0 of the prior, ndarray of float64 of shape (R, C)."""
+        """Log-odds l_0 of the prior, on the lattice, ndarray of shape (R, C)."""
         return logit(self.p_free)
 
 
@@ -111,10 +133,11 @@ def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
 
     Raises
     ------
-    ParameterError
-        Where the array is not bool of the grid's shape.
+    TypeError, ParameterError
+        Where the array is not bool, or not of the grid's shape.
     """
     is_wall = cells_of("is_wall", is_wall, grid)
+    expect("prior", prior, Prior)
     p_free = np.where(is_wall, prior.p_free_wall, prior.p_free_space)
     return PriorMap(grid=grid, is_wall=is_wall, p_free=p_free)
 
@@ -126,7 +149,7 @@ def build_prior(
 
     Parameters
     ----------
-    wall_mask : ndarray of bool, shape (H, W)
+    wall_mask : array_like of bool, shape (H, W)
         Walls found in the drawing (never the ground truth).
     grid : Grid
         Cells over the same image.
@@ -141,7 +164,18 @@ def build_prior(
 
     Raises
     ------
+    TypeError
+        Where the mask is not bool (a grey image is none), or the grid no `Grid`.
     ParameterError
         Where sizes differ or the threshold lies outside its domain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, Prior, build_prior
+    >>> grid = Grid(height_px=1, width_px=4, cell_px=2)
+    >>> mask = np.array([[True, False, False, False]])
+    >>> build_prior(mask, grid, Prior(p_wall=0.2, p_space=0.9)).p_free
+    array([[0.18, 0.81]])
     """
     return prior_from_cells(wall_cells(wall_mask, grid, wall_share), grid, prior)

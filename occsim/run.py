@@ -13,7 +13,8 @@ import numpy.typing as npt
 from occsim._types import BoolArray
 from occsim.building import Building
 from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog, collect_evidence
+from occsim.evidence import collect_evidence
+from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.metrics import Region, ScoreCurves, Scores, score, scores_by_reading
@@ -81,8 +82,9 @@ class MappingRun:
     Examples
     --------
     >>> from occsim import MappingRun, MapSettings, Prior, load_sample
-    >>> sample = load_sample("d")
-    >>> run = MappingRun(sample, MapSettings(cell_px=5, sensor=sample.sensor))
+    >>> from occsim.building import building_from_sample
+    >>> settings = MapSettings(cell_px=5, sensor=load_sample("d").sensor)
+    >>> run = MappingRun(building_from_sample("d"), settings)
     >>> run.scores(Prior()).recall > run.scores(Prior.uninformative()).recall
     True
     """

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import FloatArray
-from occsim.errors import ParameterError, real_number, require_choice
+from occsim.errors import ParameterError, choice, real_number
 from occsim.grid import Grid
 from occsim.logodds import logit
 
@@ -62,6 +62,13 @@ class Sensor:
     ------
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import Sensor
+    >>> sensor = Sensor(range_px=40, behind_hit="unseen")
+    >>> sensor.behind_hit
+    <BehindHit.UNSEEN: 'unseen'>
     """
 
     range_px: float = 20.0
@@ -80,7 +87,8 @@ class Sensor:
         # A slider in degrees may land a rounding error beyond the full circle.
         if not 0.0 < self.fov_rad <= 2.0 * np.pi + EDGE_EPS:
             raise ParameterError(f"fov_rad must lie in (0, 2 pi]; got {self.fov_rad!r}")
-        require_choice("behind_hit", self.behind_hit, BehindHit)
+        behind_hit = choice("behind_hit", self.behind_hit, BehindHit)
+        object.__setattr__(self, "behind_hit", behind_hit)
         if not isinstance(self.clear_no_hit, (bool, np.bool_)):
             raise ParameterError(
                 f"clear_no_hit must be True or False; got {self.clear_no_hit!r}"
@@ -123,7 +131,14 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     Returns
     -------
     ndarray of float64
-        ``logit(p_free(reading))``, nats, in [-ln 9, ln 9].
+        ``logit(p_free(reading))``, nats, in [-ln 9, ln 9], on the lattice of
+        `occsim.logodds`.
+
+    Examples
+    --------
+    >>> from occsim.sensor import inverse_sensor_model
+    >>> inverse_sensor_model([9, 2, 0], [0, 1, 9]).round(3)  # 0.9, 2/3, 0.1
+    array([ 2.197,  0.693, -2.197])
     """
     empty, objects = np.broadcast_arrays(n_empty, n_object)
     # Eq. 4.22, first and second case: most cells are all empty or all object.

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray
-from occsim.errors import ParameterError, TrajectoryError
+from occsim.errors import ParameterError, TrajectoryError, choice
 from occsim.geometry import CARDINAL_HEADINGS_RAD, snap_heading
 from occsim.world import World
 
@@ -184,10 +184,7 @@ def resample(
     turning = _turning(turn_at_waypoints, is_new)
     if not 0.0 < step_px < np.inf:
         raise ParameterError(f"step_px must be above 0 and finite; got {step_px!r}")
-    if not isinstance(heading_mode, HeadingMode):
-        raise ParameterError(
-            f"heading_mode must be a HeadingMode; got {heading_mode!r}"
-        )
+    heading_mode = choice("heading_mode", heading_mode, HeadingMode)
     leg = np.diff(points, axis=0)
     passed_px = np.concatenate([[0.0], np.cumsum(np.hypot(leg[:, 0], leg[:, 1]))])
     _require_few_poses(passed_px[-1], step_px, heading_mode, int(turning.sum()))

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occsim._types import BoolArray
-from occsim.errors import ParameterError
+from occsim._types import BoolArray, ShortRepr
+from occsim.errors import ParameterError, bool_array, expect, real_number
 from occsim.grid import Grid
 from occsim.imaging import Drawing
 
 
-@dataclass(frozen=True, eq=False)
-class World:
+@dataclass(frozen=True, eq=False, repr=False)
+class World(ShortRepr):
     """Ground truth: which pixels are structure.
 
     Parameters
@@ -21,24 +21,28 @@ class World:
 
     Raises
     ------
+    TypeError
+        Where the array is not of truth values.
     ParameterError
-        Where the array is not two-dimensional, empty, or not of truth values.
+        Where it is not two-dimensional, or empty.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import World
+    >>> World(np.zeros((60, 80), dtype=bool))
+    World(occupied=bool[60, 80])
     """
 
     occupied: BoolArray
 
     def __post_init__(self) -> None:
-        occupied = np.asarray(self.occupied)
-        if occupied.dtype != np.bool_:
-            raise ParameterError(
-                f"occupied must be an array of bool; got {occupied.dtype}"
-            )
+        occupied = np.array(bool_array("occupied", self.occupied), order="C")
         if occupied.ndim != 2 or occupied.size == 0:
             raise ParameterError(
                 "occupied must have shape (H, W) with at least one pixel; "
                 f"got {occupied.shape}"
             )
-        occupied = np.array(occupied, order="C")
         occupied.setflags(write=False)
         object.__setattr__(self, "occupied", occupied)
 
@@ -79,7 +83,7 @@ def wall_cells(mask: BoolArray, grid: Grid, wall_share: float = 0.0) -> BoolArra
 
     Parameters
     ----------
-    mask : ndarray of bool, shape (H, W)
+    mask : array_like of bool, shape (H, W)
         Wall pixels: a detected wall mask or a ground truth.
     grid : Grid
         Cells over the same image.
@@ -93,9 +97,13 @@ def wall_cells(mask: BoolArray, grid: Grid, wall_share: float = 0.0) -> BoolArra
 
     Raises
     ------
+    TypeError
+        Where the mask is not bool (a grey image is none), or the grid no `Grid`.
     ParameterError
         Where the threshold lies outside [0, 1) or the sizes differ.
     """
+    expect("grid", grid, Grid)
+    wall_share = real_number("wall_share", wall_share)
     if not 0.0 <= wall_share < 1.0:
         raise ParameterError(f"wall_share must lie in [0, 1); got {wall_share!r}")
     return grid.share(mask) > wall_share
@@ -117,5 +125,19 @@ def truth_cells(world: World, grid: Grid, wall_share: float = 0.0) -> BoolArray:
     -------
     ndarray of bool, shape (R, C)
         True for cells that are wall in truth.
+
+    Raises
+    ------
+    TypeError, ParameterError
+        As in `wall_cells`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import World, truth_cells
+    >>> world = World(np.array([[True, False, False, False]]))
+    >>> truth_cells(world, world.grid(2))
+    array([[ True, False]])
     """
+    expect("world", world, World)
     return wall_cells(world.occupied, grid, wall_share)

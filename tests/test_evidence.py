@@ -11,7 +11,11 @@ from occsim import (
     Trajectory,
     World,
     collect_evidence,
+    collect_totals,
+    stream_evidence,
 )
+from occsim.geometry import wrap_angle
+from occsim.rays.faces import wall_faces
 from tests.oracles import naive_evidence
 
 
@@ -30,7 +34,10 @@ def assert_same_readings(evidence, expected):
     for ours, theirs in zip(found, expected, strict=True):
         assert [cell for cell, _ in ours] == [cell for cell, _ in theirs]
         np.testing.assert_allclose(
-            [value for _, value in ours], [value for _, value in theirs], atol=1e-12
+            # The library's log-odds are rounded to a lattice of 1.5e-11 nats.
+            [value for _, value in ours],
+            [value for _, value in theirs],
+            atol=1e-11,
         )
 
 
@@ -207,7 +214,7 @@ def test_the_order_of_scans_does_not_matter_for_totals():
         for p in (poses, shuffled)
     ]
     (sums, counts), (sums_2, counts_2) = (log.totals() for log in logs)
-    np.testing.assert_allclose(sums, sums_2, atol=1e-12)
+    np.testing.assert_array_equal(sums, sums_2)
     np.testing.assert_array_equal(counts, counts_2)
 
 
@@ -239,6 +246,46 @@ def test_batches_change_nothing_and_report_progress(monkeypatch):
     assert calls == [(10, 25), (20, 25), (25, 25)]
     for name in ("indptr", "cell", "log_odds"):
         np.testing.assert_array_equal(getattr(whole, name), getattr(parts, name))
+
+
+@pytest.mark.parametrize("at_once", [7, 1000])
+def test_parts_and_totals_are_those_of_the_log(monkeypatch, at_once):
+    monkeypatch.setattr("occsim.evidence.READINGS_AT_ONCE", at_once)
+    world, sensor = room(), Sensor(range_px=30.0, fov_rad=6.0)
+    asked = world, Trajectory(poses=poses_in(world, 25, seed=1)), sensor, world.grid(4)
+    log, totals = collect_evidence(*asked), collect_totals(*asked)
+    for ours, theirs in zip(totals.totals(), log.totals(), strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+        assert not ours.flags.writeable
+    parts = list(stream_evidence(*asked))
+    assert len(parts) == -(-25 // at_once)
+    for name in ("cell", "log_odds"):
+        joined = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_array_equal(joined, getattr(log, name))
+
+
+def test_faces_are_found_once_a_world(monkeypatch):
+    calls = []
+
+    def counted(occupied):
+        calls.append(occupied.shape)
+        return wall_faces(occupied)
+
+    monkeypatch.setattr("occsim.evidence.wall_faces", counted)
+    world, other = room(), room()
+    for asked in (world, world, other, world):
+        one_reading(asked, (20.0, 20.0, 0.0))
+    assert len(calls) == 2
+
+
+@pytest.mark.parametrize("theta", [1e16, -1e16, 1e300, 7e8])
+@pytest.mark.parametrize("fov_rad", [1.0, 5.0])
+def test_a_heading_of_many_turns_is_the_heading_within_one(theta, fov_rad):
+    seen = [
+        one_reading(room(), (20.5, 20.5, angle), range_px=30.0, fov_rad=fov_rad)
+        for angle in (theta, float(wrap_angle(theta)))
+    ]
+    np.testing.assert_array_equal(*seen)
 
 
 def test_types_and_order_of_the_log():

@@ -1,5 +1,5 @@
 import numpy as np
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from occsim.geometry import CARDINAL_HEADINGS_RAD, snap_heading, wrap_angle
@@ -14,6 +14,15 @@ def test_wrapping_keeps_the_direction(angle):
     np.testing.assert_allclose(
         [np.cos(wrapped), np.sin(wrapped)], [np.cos(angle), np.sin(angle)], atol=1e-9
     )
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+@example(np.nextafter(-np.pi, -4.0))
+@example(np.nextafter(np.pi, 0.0))
+@example(-np.pi)
+@example(np.pi)
+def test_a_wrapped_angle_lies_in_one_turn_that_begins_at_minus_pi(angle):
+    assert -np.pi <= wrap_angle(angle) < np.pi
 
 
 @given(ANGLES)

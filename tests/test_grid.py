@@ -51,7 +51,9 @@ def test_a_point_belongs_to_the_cell_by_floor():
 def test_sizes_are_such_as_the_array_library_counts_with():
     largest = Grid(height_px=3, width_px=4, cell_px=2**31 - 1)
     assert largest.share(np.ones((3, 4), dtype=bool)).tolist() == [[1.0]]
-    with pytest.raises(ParameterError, match="cell_px must be at most 2,147,483,647"):
+    with pytest.raises(
+        ParameterError, match="cell_px must be a whole number, 1 to 2,147,4"
+    ):
         Grid(height_px=3, width_px=4, cell_px=2**31)
 
 
@@ -63,8 +65,18 @@ def test_a_cell_is_a_whole_number_of_pixels(cell_px):
 
 def test_a_mask_of_another_size_is_refused():
     grid = Grid(height_px=4, width_px=4, cell_px=2)
-    with pytest.raises(ParameterError, match=r"shape \(4, 4\); got \(4, 5\)"):
+    with pytest.raises(
+        ParameterError, match=r"shape \(4, 4\); got bool of shape \(4, 5\)"
+    ):
         grid.share(np.zeros((4, 5), dtype=bool))
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, float])
+def test_a_grey_image_is_no_mask(dtype):
+    # White is not zero: taken for a mask, the paper would be wall.
+    grid = Grid(height_px=4, width_px=4, cell_px=2)
+    with pytest.raises(TypeError, match="mask must be an array of bool; got an array"):
+        grid.share(np.full((4, 4), 255, dtype=dtype))
 
 
 def test_equal_grids_are_interchangeable_keys():

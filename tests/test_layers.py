@@ -21,7 +21,7 @@ ORDER = [
     {"prior"},
     {"trajectory"},
     {"sensor"},
-    {"rays"},
+    {"rays", "evidence_log"},
     {"evidence"},
     {"tour"},
     {"mapping"},

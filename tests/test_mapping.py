@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from occsim import (
     EvidenceLog,
+    EvidenceTotals,
     Grid,
     ParameterError,
     Prior,
@@ -58,12 +59,12 @@ SEEDS = st.integers(0, 2**32 - 1)
 
 
 @given(seed=SEEDS, rule=st.sampled_from(UpdateRule))
-def test_closed_form_is_the_recursion_at_every_step(seed, rule):
+def test_closed_form_is_the_recursion_at_every_step_to_the_last_bit(seed, rule):
     evidence, prior_map = random_log(seed), random_prior(seed)
     for n_readings in range(evidence.n_readings + 1):
         result = fuse(evidence, prior_map, rule, n_readings)
         log_odds, counts = recursion(evidence, prior_map, rule, n_readings)
-        np.testing.assert_allclose(result.log_odds, log_odds, atol=1e-12)
+        np.testing.assert_array_equal(result.log_odds, log_odds)
         np.testing.assert_array_equal(result.n_updates, counts)
 
 
@@ -71,8 +72,86 @@ def test_closed_form_is_the_recursion_at_every_step(seed, rule):
 def test_with_a_prior_of_one_half_both_rules_agree(seed):
     evidence = random_log(seed)
     prior_map = build_prior(np.zeros((3, 4), bool), GRID, Prior.uninformative())
-    subtract, once = (fuse(evidence, prior_map, rule) for rule in UpdateRule)
+    once, subtract = (fuse(evidence, prior_map, rule) for rule in UpdateRule)
     np.testing.assert_array_equal(subtract.log_odds, once.log_odds)
+
+
+@given(seed=SEEDS, rule=st.sampled_from(UpdateRule))
+def test_totals_serve_as_a_log_does(seed, rule):
+    evidence, prior_map = random_log(seed), random_prior(seed)
+    totals = EvidenceTotals(GRID, *evidence.totals())
+    of_log, of_totals = (fuse(e, prior_map, rule) for e in (evidence, totals))
+    np.testing.assert_array_equal(of_totals.log_odds, of_log.log_odds)
+    np.testing.assert_array_equal(of_totals.n_updates, of_log.n_updates)
+    with pytest.raises(ParameterError, match="totals are those of all readings; got"):
+        fuse(totals, prior_map, rule, n_readings=2)
+
+
+@given(SEEDS)
+def test_sums_are_exact_in_any_order(seed):
+    """The sum of a cell, forwards, backwards and in whole numbers of 2^-36."""
+    rng = np.random.default_rng(seed)
+    values = logit(rng.uniform(0.1, 0.9, 1000))
+    exact = sum(int(value * 2**36) for value in values) / 2**36
+    assert np.cumsum(values)[-1] == np.cumsum(values[::-1])[-1] == exact
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"indptr": [0, 1]}, "indptr must run from 0 to the number of entries"),
+        ({"indptr": [1, 2, 3]}, "indptr must run from 0"),
+        ({"indptr": [0, 2, 1, 3]}, "indptr must not fall"),
+        ({"indptr": []}, "indptr must run from 0"),
+        ({"log_odds": [0.1, 0.2]}, "cell and log_odds have one value each"),
+        ({"cell": [0, 1, 12]}, "cell must lie in 0 to 11; got 0 to 12"),
+        ({"cell": [-1, 1, 2]}, "cell must lie in 0 to 11; got -1 to 2"),
+        ({"cell": [0, 2**40, 2]}, "cell must lie in -2147483648 to 2147483647"),
+        ({"cell": [5, 5, 2]}, "a reading must name each cell at most once"),
+        ({"log_odds": [0.1, np.nan, 0.2]}, "log_odds must be finite and below 131,072"),
+        ({"log_odds": [0.1, np.inf, 0.2]}, "log_odds must be finite"),
+        ({"log_odds": [0.1, 1e6, 0.2]}, "log_odds must be finite and below"),
+    ],
+)
+def test_a_log_that_is_not_sound_is_refused(change, message):
+    whole = {"indptr": [0, 2, 3], "cell": [0, 1, 0], "log_odds": [0.1, 0.2, 0.3]}
+    assert EvidenceLog(grid=GRID, **whole).n_readings == 2
+    with pytest.raises(ParameterError, match=message):
+        EvidenceLog(grid=GRID, **(whole | change))
+
+
+def test_a_log_of_cells_in_any_order_is_sound():
+    log = EvidenceLog(GRID, [0, 2, 4], [7, 1, 1, 7], [0.0, 1.0, 2.0, 3.0])
+    np.testing.assert_array_equal(log.totals()[0].ravel()[[1, 7]], [3.0, 3.0])
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("cell", [0.0, 1.0, 0.0]), ("log_odds", ["a", "b", "c"])]
+)
+def test_a_log_of_other_types_is_refused(name, value):
+    whole = {"indptr": [0, 2, 3], "cell": [0, 1, 0], "log_odds": [0.1, 0.2, 0.3]}
+    with pytest.raises(TypeError, match=f"{name} must hold"):
+        EvidenceLog(grid=GRID, **(whole | {name: value}))
+
+
+def test_a_log_leaves_its_callers_arrays_alone():
+    cell, log_odds = np.array([0], dtype=np.int32), np.array([0.1])
+    log = EvidenceLog(GRID, [0, 1], cell, log_odds)
+    cell[0], log_odds[0] = 3, 9.0
+    assert (log.cell[0], round(log.log_odds[0], 9)) == (0, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("sums", "counts", "message"),
+    [
+        (np.full((3, 4), np.nan), np.zeros((3, 4), int), "sums must be finite"),
+        (np.zeros((3, 4)), np.full((3, 4), -1), "counts must not be negative; got -1"),
+        (np.zeros((4, 3)), np.zeros((3, 4), int), r"the grid's shape \(3, 4\)"),
+    ],
+)
+def test_totals_that_are_not_sound_are_refused(sums, counts, message):
+    with pytest.raises(ParameterError, match=message):
+        EvidenceTotals(GRID, sums, counts)
 
 
 @given(SEEDS)
@@ -96,9 +175,10 @@ def test_each_further_reading_pushes_away_from_a_subtracted_prior():
         log_odds=np.zeros(3),
     )
     prior_map = build_prior(np.zeros((1, 1), bool), grid, Prior(p_space=1.0))
-    steps = [fuse(evidence, prior_map, n_readings=k).log_odds.item() for k in range(4)]
-    np.testing.assert_allclose(steps, np.log(9) * np.array([1, 0, -1, -2]), atol=1e-12)
-    once = fuse(evidence, prior_map, UpdateRule.PRIOR_ONCE)
+    subtract = UpdateRule.SUBTRACT_PRIOR
+    steps = [fuse(evidence, prior_map, subtract, k).log_odds.item() for k in range(4)]
+    np.testing.assert_allclose(steps, np.log(9) * np.array([1, 0, -1, -2]), atol=1e-10)
+    once = fuse(evidence, prior_map)  # the default: the drawing is counted once
     np.testing.assert_allclose(once.p_free, [[0.9]])
 
 

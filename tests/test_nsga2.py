@@ -149,8 +149,9 @@ def test_the_best_front_is_held_to_its_share():
         ({"pop_size": 3}, "pop_size must be a whole number, 4 to 10,000; got 3"),
         ({"n_gen": 0}, "n_gen must be a whole number, 1 to 10,000; got 0"),
         ({"pop_size": 10.5}, "pop_size must be a whole number"),
+        ({"seed": -1}, "seed must be a whole number, 0 to 4,294,967,295; got -1"),
         ({"seed": None}, "seed must be a whole number, 0 to 4,294,967,295; got None"),
-        ({"elitism": "full"}, "elitism must be one of Elitism.FULL"),
+        ({"elitism": "none"}, "elitism must be one of Elitism.FULL"),
         ({"low": 0.5, "high": 0.5}, "low and high must satisfy"),
         ({"pareto_fraction": 1.0}, "pareto_fraction must lie in"),
     ],
@@ -183,7 +184,6 @@ def test_objectives_of_other_forms_are_the_same_objective(case):
 @pytest.mark.parametrize(
     ("objective", "message"),
     [
-        (0.5, "objective must be a function of prior pairs, a PriorSweep or"),
         (lambda pairs: pairs[:, :1], r"shape \(8, 2\); got shape \(8, 1\)"),
         (lambda pairs: (pairs[:, 0], 0.5 * pairs), "could not be read as numbers"),
         (lambda pairs: 1.0 / pairs, r"\[0, 1\] or NaN .* 1/precision .* got \d"),
@@ -193,6 +193,11 @@ def test_objectives_of_other_forms_are_the_same_objective(case):
 def test_an_objective_that_returns_something_else_is_refused(objective, message):
     with pytest.raises(ParameterError, match=message):
         nsga2_front(objective, pop_size=8, n_gen=2, seed=1)
+
+
+def test_an_objective_of_another_type_is_refused_at_once():
+    with pytest.raises(TypeError, match="objective must be a function of prior pairs"):
+        nsga2_generations(0.5, seed=1)
 
 
 def test_importing_the_library_does_not_import_pymoo():

@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,6 +9,7 @@ from occsim import (
     Grid,
     ParameterError,
     Prior,
+    PriorMap,
     World,
     build_prior,
     logit,
@@ -70,6 +73,19 @@ def test_prior_values_lie_above_zero_and_up_to_one(name, value):
         Prior(**{name: value})
 
 
+def test_a_number_beyond_all_floats_is_refused():
+    with pytest.raises(ParameterError, match="p_wall must be a number below 1e308"):
+        Prior(p_wall=10**400)
+
+
+@pytest.mark.parametrize("p_free", [[[0.0, 0.5]], [[0.5, np.nan]], [[0.5, 0.5, 0.5]]])
+def test_a_prior_map_of_no_probabilities_is_refused(p_free):
+    with pytest.raises(
+        ParameterError, match=r"p_free must have shape \(1, 2\) and lie"
+    ):
+        PriorMap(grid=GRID, is_wall=np.array([[True, False]]), p_free=np.array(p_free))
+
+
 def test_without_the_scale_a_value_of_one_is_refused():
     with pytest.raises(ParameterError, match="log-odds"):
         Prior(p_wall=0.2, p_space=1.0, scale=1.0)
@@ -77,9 +93,19 @@ def test_without_the_scale_a_value_of_one_is_refused():
 
 @given(st.floats(1e-9, 1 - 1e-9))
 def test_logit_and_its_inverse_undo_each_other(p_free):
+    # Half a step of the lattice, 2^-37 = 7.3e-12 nats, moves p by at most as much.
     np.testing.assert_allclose(
-        p_free_from_log_odds(logit(p_free)), p_free, rtol=1e-12, atol=0
+        p_free_from_log_odds(logit(p_free)), p_free, rtol=8e-12, atol=0
     )
+
+
+@given(st.floats(1e-300, 1 - 1e-9))
+def test_log_odds_lie_on_the_lattice(p_free):
+    """Multiples of 2^-36 nats, the nearest to the logarithm."""
+    steps = float(logit(p_free)) * 2**36
+    assert steps == round(steps)
+    exact = math.log(p_free) - math.log1p(-p_free)
+    assert abs(steps / 2**36 - exact) <= 2**-37 + 1e-12
 
 
 def test_extreme_log_odds_do_not_overflow():
@@ -90,8 +116,9 @@ def test_extreme_log_odds_do_not_overflow():
 
 
 def test_a_tie_is_not_occupied():
-    # A prior of 0.9 and one reading of 0.1 cancel but for rounding.
+    # A prior of 0.9 and one reading of 0.1 cancel, on the lattice exactly.
     rest = float(logit(0.9) + logit(0.1))
+    assert rest == 0.0
     np.testing.assert_array_equal(
         is_occupied([rest, 0.0, -1e-10, -1e-8, 1e-8]),
         [False, False, False, True, False],

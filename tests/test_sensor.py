@@ -3,7 +3,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occsim import ParameterError, Sensor, Trajectory, World, collect_evidence
+from occsim import (
+    BehindHit,
+    ParameterError,
+    Sensor,
+    Trajectory,
+    World,
+    collect_evidence,
+)
 from occsim.sensor import inverse_sensor_model, most_cells_in_view
 
 
@@ -22,7 +29,7 @@ from occsim.sensor import inverse_sensor_model, most_cells_in_view
 )
 def test_log_odds_of_a_cell_by_its_pixels(n_empty, n_object, odds):
     np.testing.assert_allclose(
-        inverse_sensor_model(n_empty, n_object), np.log(odds), atol=1e-12
+        inverse_sensor_model(n_empty, n_object), np.log(odds), atol=1e-11
     )
 
 
@@ -31,7 +38,7 @@ def test_arrays_keep_their_shape_and_are_not_written_to():
     n_object = np.array([[0, 4, 2]], dtype=np.int32)
     before = n_empty.copy(), n_object.copy()
     result = inverse_sensor_model(n_empty, n_object)
-    np.testing.assert_allclose(result, [[np.log(9), -np.log(9), 0]], atol=1e-12)
+    np.testing.assert_allclose(result, [[np.log(9), -np.log(9), 0]], atol=1e-11)
     np.testing.assert_array_equal(n_empty, before[0])
     np.testing.assert_array_equal(n_object, before[1])
 
@@ -52,9 +59,17 @@ def test_a_full_turn_given_in_degrees_is_accepted():
     assert Sensor(fov_rad=np.radians(360.0)).fov_rad == pytest.approx(2 * np.pi)
 
 
-def test_what_lies_behind_a_hit_is_a_choice_not_a_string():
+def test_what_one_reading_says_lies_on_the_lattice_and_is_symmetric():
+    n_empty, n_object = np.meshgrid(np.arange(1, 101), np.arange(1, 101))
+    steps = inverse_sensor_model(n_empty, n_object) * 2**36
+    np.testing.assert_array_equal(steps, np.rint(steps))
+    np.testing.assert_array_equal(steps, -steps.T)
+
+
+def test_what_lies_behind_a_hit_may_be_named_by_its_value():
+    assert Sensor(behind_hit="unseen") == Sensor(behind_hit=BehindHit.UNSEEN)
     with pytest.raises(ParameterError, match="behind_hit must be one of BehindHit"):
-        Sensor(behind_hit="occupied")
+        Sensor(behind_hit="UNSEEN")
 
 
 @given(

@@ -405,7 +405,10 @@ def test_the_command_writes_resumes_and_says_so(tmp_path, capsys):
     [
         (["no such drawing"], "a drawing is a sample .* got 'no such drawing'"),
         (["a", "--cells", "0"], "--cells must be 1 px or more; got 0"),
-        (["a", "--cells", "9" * 20], "cell_px must be at most 2,147,483,647; got 9"),
+        (
+            ["a", "--cells", "9" * 20],
+            "cell_px must be a whole number, 1 to 2,147,483,647; got 9",
+        ),
         (["a", "--range-px", "-1"], "range_px must be above 0"),
     ],
 )
@@ -457,7 +460,7 @@ def test_a_sample_has_its_own_sensor():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"rule": "once"}, "rule must be one of UpdateRule; got 'once'"),
+        ({"rule": "once"}, "rule must be one of UpdateRule.PRIOR_ONCE .*; got 'once'"),
         ({"low": 0.0}, "low and high must satisfy"),
         ({"wall_share": 1.0}, r"wall_share must lie in \[0, 1\)"),
     ],

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, ByteArray, FloatArray
-from occsim.errors import ParameterError
-from occsim.grid import Grid
+from occsim.errors import ParameterError, choice
+from occsim.grid import Grid, cells_of
 from occsim.logodds import is_occupied
 from occsim.mapping import OccupancyMap
 from occsim.metrics import Region
@@ -98,12 +98,14 @@ def outcome_picture(
 
     Raises
     ------
+    TypeError
+        Where the truth is not bool.
     ParameterError
-        Where the truth does not have the grid's shape.
+        Where it does not have the grid's shape, or the region is no `Region`.
     """
-    _require_shape(truth, occupancy_map.grid)
+    truth = cells_of("truth", truth, occupancy_map.grid)
     code = 2 * truth.astype(np.uint8) + is_occupied(occupancy_map.log_odds)
-    if region is Region.EXPLORED:
+    if choice("region", region, Region) is Region.EXPLORED:
         code = np.where(occupancy_map.n_updates > 0, code, UNSEEN)
     by_code = (colours.free, colours.false_wall, colours.missed_wall, colours.hit)
     table = np.array([_rgb(c) for c in (*by_code, colours.unseen)], dtype=np.uint8)

@@ -44,7 +44,7 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
 from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
+from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.imaging import Drawing
 from occsim.sensor import Sensor

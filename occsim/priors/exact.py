@@ -14,28 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
-from occsim.logodds import p_free_from_log_odds
+from occsim.errors import ParameterError, expect, real_number
+from occsim.evidence_log import Evidence
+from occsim.logodds import DECISION_EPS, LATTICE_NATS, p_free_from_log_odds
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, precision_of, recall_of
 from occsim.prior import PRIOR_SCALE
-from occsim.priors.front import ParetoFront
+from occsim.priors.front import DECIMALS, ParetoFront
 from occsim.priors.surface import PriorSurface, StepCount, prior_levels, prior_surface
-
-MIN_WIDTH = 1e-12
-"""Narrowest interval of l_0, nats, taken for real.
-
-Cells whose levels agree on paper differ by the rounding of their sums, a thousand
-times less than this; the states between them exist in no exact arithmetic. The tie
-band, 2e-9 nats over the number of readings, is wider.
-"""
-
-EDGE = 1e-15
-"""Rounding of a value p that is computed from l_0; rectangles end this much inside."""
-
-MAX_DIGITS = 15
-"""Decimals tried for a short representative; an interval of MIN_WIDTH has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,10 +49,10 @@ class _States:
 
 
 def exact_front(
-    evidence: EvidenceLog,
+    evidence: Evidence,
     is_wall: BoolArray,
     truth: BoolArray,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
     low: float = 0.1,
     high: float = 1.0,
@@ -79,13 +65,13 @@ def exact_front(
 
     Parameters
     ----------
-    evidence : EvidenceLog
+    evidence : EvidenceLog or EvidenceTotals
         What the readings said.
     is_wall : ndarray of bool, shape (R, C)
         Wall cells of the drawing.
     truth : ndarray of bool, shape (R, C)
         Cells that are wall in truth.
-    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+    rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
     region : Region, default Region.EXPLORED
         Which cells are scored.
@@ -98,13 +84,32 @@ def exact_front(
     -------
     ParetoFront
         With rectangles. Each point's pair, put through `fuse` and `score`, attains it
-        exactly; it is a short decimal where one serves. Empty where no pair hits a
-        wall: no walls in the truth, nothing seen, or precision undefined everywhere.
+        exactly; its values have 4 decimals or fewer, except where `is_single` says so.
+        Empty where no pair hits a wall: no walls in the truth, nothing seen, or
+        precision undefined everywhere.
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type.
     ParameterError
         Where a shape is not the grid's or a value lies outside its domain.
+
+    Notes
+    -----
+    What only the width of the decision's tie band brings about (`DECISION_EPS`) is on
+    no front: intervals narrower than twice that count only where they hold an end of
+    the box or l_0 = 0, at which cells that were never read tie.
+
+    Examples
+    --------
+    >>> from occsim import EvidenceLog, Grid, exact_front, logit
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> log = EvidenceLog(grid, [0, 2], [0, 1], logit([0.3, 0.3]))
+    >>> walls = [[True, False]]
+    >>> front = exact_front(log, walls, walls)
+    >>> front.p_wall, front.p_space, front.precision
+    (array([0.4]), array([0.9]), array([1.]))
     """
     surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
     return surface_front(surface, low, high)
@@ -128,9 +133,12 @@ def surface_front(
 
     Raises
     ------
+    TypeError
+        Where the surface is no `PriorSurface`.
     ParameterError
         Where a bound lies outside its domain.
     """
+    expect("surface", surface, PriorSurface)
     wall = _states(surface.wall_tp, surface.wall_fp, low, high, surface.scale)
     space = _states(surface.space_tp, surface.space_fp, low, high, surface.scale)
     wall, space = _pruned(wall), _pruned(space)
@@ -143,8 +151,8 @@ def surface_front(
     keep = (tp > 0) & (precision > later)
     wall, space = wall.take(i[keep]), space.take(j[keep])
     return ParetoFront(
-        p_wall=_representative(wall.low, wall.high, low, high),
-        p_space=_representative(space.low, space.high, low, high),
+        p_wall=_short_decimal(wall.low, wall.high),
+        p_space=_short_decimal(space.low, space.high),
         precision=precision[keep],
         recall=recall_of(tp[keep], surface.n_wall - tp[keep]),
         rectangles=np.stack((wall.low, wall.high, space.low, space.high), axis=1),
@@ -173,13 +181,18 @@ def rectangles_at(
     -------
     ndarray of float64, shape (M, 4)
         Rows p_wall_low, p_wall_high, p_space_low, p_space_high: every pair in the box
-        with the same counts of true and false positives.
+        with the same counts of true and false positives, but for those within the
+        decision's tie band; see `exact_front`.
 
     Raises
     ------
+    TypeError
+        Where the surface is no `PriorSurface`.
     ParameterError
         Where a value lies outside its domain.
     """
+    expect("surface", surface, PriorSurface)
+    p_wall, p_space = real_number("p_wall", p_wall), real_number("p_space", p_space)
     tp, fp = (int(count) for count in surface.counts(p_wall, p_space))
     wall = _states(surface.wall_tp, surface.wall_fp, low, high, surface.scale)
     space = _states(surface.space_tp, surface.space_fp, low, high, surface.scale)
@@ -204,6 +217,7 @@ def _states(
     tp: StepCount, fp: StepCount, low: float, high: float, scale: float
 ) -> _States:
     # All states of one class over [low, high], by ascending prior value.
+    low, high = real_number("low", low), real_number("high", high)
     bottom, top = prior_levels("low and high", (low, high), scale)
     if low > high:
         raise ParameterError(f"low must not exceed high; got {low!r} and {high!r}")
@@ -214,14 +228,19 @@ def _states(
     # Where one cell falls as another rises the state goes on.
     new = np.append(True, (np.diff(counts) != 0).any(axis=0))
     starts, counts = starts[new], counts[:, new]
-    stops = np.append(np.nextafter(starts[1:], -np.inf), top)
-    real = stops - starts >= MIN_WIDTH
-    # The ends of the box are attained however narrow the interval that holds them.
-    real[[0, -1]] = True
-    p_low = p_free_from_log_odds(starts) / scale
-    p_high = p_free_from_log_odds(stops) / scale
-    inset = np.minimum(EDGE, 0.25 * (p_high - p_low))
-    p_low, p_high = p_low + inset, p_high - inset
+    # Within the tie band a cell is left free that exactly taken is wall; a tie itself
+    # is free, and its interval begins with it.
+    band = DECISION_EPS // LATTICE_NATS * LATTICE_NATS
+    first, last = starts + band, np.append(starts[1:] - LATTICE_NATS - band, top)
+    # The ends of the box are attained however narrow the interval that holds them, and
+    # so is the tie of cells that were never read, l_0 = 0.
+    first[0], last[0] = bottom, max(last[0], bottom)
+    first[-1] = min(first[-1], top)
+    tie = np.searchsorted(starts, 0.0, side="right") - 1
+    if bottom <= 0.0 <= top and first[tie] > last[tie]:
+        first[tie] = last[tie] = 0.0
+    real = first <= last
+    p_low, p_high = np.clip(p_free_from_log_odds([first, last]) / scale, low, high)
     p_low[0], p_high[-1] = low, high
     return _States(p_low, p_high, counts[0], counts[1]).take(real)
 
@@ -270,30 +289,23 @@ def _fewest_false(wall: _States, space: _States) -> tuple[IntArray, IntArray]:
     return choice[0, attained], choice[1, attained]
 
 
-def _representative(
-    p_low: FloatArray, p_high: FloatArray, low: float, high: float
-) -> FloatArray:
+def _short_decimal(low: FloatArray, high: FloatArray) -> FloatArray:
     """Return a value inside each interval: the shortest decimal, else the middle.
 
     Parameters
     ----------
-    p_low, p_high : ndarray of float64, shape (N,)
+    low, high : ndarray of float64, shape (N,)
         Bounds of the intervals.
-    low, high : float
-        Ends of the box; elsewhere the edge of an interval is kept away from.
 
     Returns
     -------
     ndarray of float64, shape (N,)
     """
-    margin = 0.01 * (p_high - p_low)
-    bottom = np.where(p_low <= low, p_low, p_low + margin)
-    top = np.where(p_high >= high, p_high, p_high - margin)
-    middle = 0.5 * (bottom + top)
+    middle = 0.5 * (low + high)
     value = middle.copy()
-    for digits in range(MAX_DIGITS, 0, -1):
+    for digits in range(DECIMALS, 0, -1):
         # If any decimal of so many digits lies inside, the one nearest to the middle
         # does; fewer digits overwrite more.
         nearest = np.round(middle, digits)
-        value = np.where((nearest >= bottom) & (nearest <= top), nearest, value)
+        value = np.where((nearest >= low) & (nearest <= high), nearest, value)
     return value

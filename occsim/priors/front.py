@@ -13,25 +13,29 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import BoolArray, FloatArray
-from occsim.errors import ParameterError
+from occsim._types import BoolArray, FloatArray, ShortRepr
+from occsim.errors import ParameterError, expect, real_array, real_number, shared_shape
 from occsim.priors.sweep import PriorSweep
 
 MIN_RECALL = 0.40
 """Threshold of set C: the source found it by experiment to keep the structure."""
 
+DECIMALS = 4
+"""Decimals of a prior value that is handed over, where its interval has room."""
+
 ROUNDING = 1e-12
 """Slack of comparisons with a tolerance, far below one cell's share of any score."""
 
 
-@dataclass(frozen=True, eq=False)
-class ParetoFront:
+@dataclass(frozen=True, eq=False, repr=False)
+class ParetoFront(ShortRepr):
     """Prior pairs of which none beats another in both precision and recall.
 
     Parameters
     ----------
     p_wall, p_space : ndarray of float64, shape (K,)
-        A pair that attains each point.
+        A pair that attains each point. On an exact front it is rounded to 4 decimals
+        or fewer inside its rectangle, where that has room; see `is_single`.
     precision, recall : ndarray of float64, shape (K,)
         The points: recall ascends strictly, precision descends strictly, both above 0.
     rectangles : ndarray of float64, shape (K, 4), optional
@@ -48,6 +52,15 @@ class ParetoFront:
 
     def __len__(self) -> int:
         return self.p_wall.size
+
+    @property
+    def is_single(self) -> BoolArray:
+        """Whether p_wall, and p_space, must be handed over to the last digit, (K, 2).
+
+        False where the value has 4 decimals or fewer: as printed, it attains the point.
+        """
+        pairs = np.stack((self.p_wall, self.p_space), axis=1)
+        return np.asarray(pairs != np.round(pairs, DECIMALS))
 
     @property
     def f2(self) -> FloatArray:
@@ -97,8 +110,26 @@ def dominates(better: npt.ArrayLike, worse: npt.ArrayLike) -> BoolArray:
     Returns
     -------
     ndarray of bool, shape (...)
+
+    Raises
+    ------
+    TypeError
+        Where the points are not real numbers.
+    ParameterError
+        Where they do not come in pairs, or the shapes do not broadcast.
+
+    Examples
+    --------
+    >>> from occsim import dominates
+    >>> dominates([0.9, 0.5], [[0.9, 0.4], [0.8, 0.6]])
+    array([ True, False])
     """
-    a, b = np.asarray(better, np.float64), np.asarray(worse, np.float64)
+    a, b = real_array("better", better), real_array("worse", worse)
+    if not a.shape[-1:] == b.shape[-1:] == (2,):
+        raise ParameterError(
+            f"points must have shape (..., 2); got {a.shape} and {b.shape}"
+        )
+    shared_shape(better=a, worse=b)
     return np.asarray((a >= b).all(axis=-1) & (a > b).any(axis=-1))
 
 
@@ -114,8 +145,21 @@ def non_dominated(precision: npt.ArrayLike, recall: npt.ArrayLike) -> BoolArray:
     -------
     ndarray of bool, shape (N,)
         Equal points are all marked; undefined ones (NaN) are not.
+
+    Raises
+    ------
+    TypeError
+        Where the values are not real numbers.
+    ParameterError
+        Where the shapes are not one and the same (N,).
+
+    Examples
+    --------
+    >>> from occsim import non_dominated
+    >>> non_dominated([0.9, 0.8, 0.7], [0.5, 0.4, 0.8])
+    array([ True, False,  True])
     """
-    p, r = np.asarray(precision, np.float64), np.asarray(recall, np.float64)
+    p, r = _points(precision, recall)
     defined = ~(np.isnan(p) | np.isnan(r))
     marked = np.zeros(p.shape, dtype=bool)
     levels, level = np.unique(r[defined], return_inverse=True)
@@ -172,19 +216,39 @@ def hypervolume(
 
     Raises
     ------
+    TypeError
+        Where the values are not real numbers.
     ParameterError
-        Where the reference is not two finite numbers.
+        Where the reference is not two finite numbers, or the shapes differ.
+
+    Examples
+    --------
+    >>> from occsim import hypervolume
+    >>> hypervolume([1.0, 0.5], [0.25, 0.5], (5, 5))  # 4 x 1 + 3 x 2
+    10.0
     """
-    corner = np.asarray(ref, dtype=np.float64)
+    corner = real_array("ref", ref)
     if corner.shape != (2,) or not np.isfinite(corner).all():
         raise ParameterError(f"ref must be two finite numbers; got {ref!r}")
-    points = np.stack((np.asarray(precision), np.asarray(recall)), axis=1)
+    points = np.stack(_points(precision, recall), axis=1)
     points = 1.0 / points[(points > 0.0).all(axis=1)]
     points = points[(points < corner).all(axis=1)]
     points = points[np.argsort(points[:, 0])]
     floor = np.minimum.accumulate(points[:, 1])
     ceiling = np.concatenate((corner[1:], floor[:-1]))
     return float(np.sum((corner[0] - points[:, 0]) * (ceiling - floor)))
+
+
+def _points(
+    precision: npt.ArrayLike, recall: npt.ArrayLike
+) -> tuple[FloatArray, FloatArray]:
+    p, r = real_array("precision", precision), real_array("recall", recall)
+    if p.ndim != 1 or p.shape != r.shape:
+        raise ParameterError(
+            "precision and recall must have one and the same shape (N,); got "
+            f"{p.shape} and {r.shape}"
+        )
+    return p, r
 
 
 def reference_point(front: ParetoFront, margin: float = 0.1) -> tuple[float, float]:
@@ -202,7 +266,14 @@ def reference_point(front: ParetoFront, margin: float = 0.1) -> tuple[float, flo
     tuple of float
         Values of 1/precision and 1/recall; (1, 1), where nothing can lie, for an
         empty front.
+
+    Raises
+    ------
+    TypeError
+        Where the front is no `ParetoFront`.
     """
+    expect("front", front, ParetoFront)
+    margin = real_number("margin", margin)
     if not len(front):
         return 1.0, 1.0
     worst, best = front.objectives.max(axis=0), front.objectives.min(axis=0)
@@ -228,10 +299,13 @@ def set_c(front: ParetoFront, min_recall: float = MIN_RECALL) -> ParetoFront:
 
     Raises
     ------
+    TypeError
+        Where the front is no `ParetoFront`.
     ParameterError
         Where the threshold lies outside its domain.
     """
-    return front.take(np.flatnonzero(_beyond(front, min_recall)))
+    beyond = _beyond(front, min_recall)
+    return front.take(beyond)
 
 
 def recommend(front: ParetoFront, min_recall: float = MIN_RECALL) -> int | None:
@@ -251,6 +325,8 @@ def recommend(front: ParetoFront, min_recall: float = MIN_RECALL) -> int | None:
 
     Raises
     ------
+    TypeError
+        Where the front is no `ParetoFront`.
     ParameterError
         Where the threshold lies outside its domain.
     """
@@ -261,6 +337,8 @@ def recommend(front: ParetoFront, min_recall: float = MIN_RECALL) -> int | None:
 
 
 def _beyond(front: ParetoFront, min_recall: float) -> BoolArray:
+    expect("front", front, ParetoFront)
+    min_recall = real_number("min_recall", min_recall)
     if not 0.0 <= min_recall <= 1.0:
         raise ParameterError(f"min_recall must lie in [0, 1]; got {min_recall!r}")
     return np.asarray(front.recall > min_recall)
@@ -288,9 +366,14 @@ def near_front(sweep: PriorSweep, front: ParetoFront, tolerance: float) -> BoolA
 
     Raises
     ------
+    TypeError
+        Where sweep or front is of another type.
     ParameterError
         Where the tolerance lies outside its domain.
     """
+    expect("sweep", sweep, PriorSweep)
+    expect("front", front, ParetoFront)
+    tolerance = real_number("tolerance", tolerance)
     if not 0.0 <= tolerance <= 1.0:
         raise ParameterError(f"tolerance must lie in [0, 1]; got {tolerance!r}")
     slack = tolerance + ROUNDING
@@ -321,10 +404,14 @@ def good_region(
 
     Raises
     ------
+    TypeError
+        Where something else than sequences of sweeps and fronts is given.
     ParameterError
         Where there is no drawing, the axes or the numbers of drawings differ, or the
         tolerance lies outside its domain.
     """
+    _expect_each("sweeps", sweeps, PriorSweep)
+    _expect_each("fronts", fronts, ParetoFront)
     if not sweeps or len(sweeps) != len(fronts):
         raise ParameterError(
             "good_region needs one front a sweep and at least one of each; got "
@@ -337,3 +424,9 @@ def good_region(
             raise ParameterError("the sweeps must have the same axes")
     near = [near_front(s, f, tolerance) for s, f in zip(sweeps, fronts, strict=True)]
     return np.asarray(np.logical_and.reduce(near), dtype=np.bool_)
+
+
+def _expect_each(name: str, values: object, kind: type) -> None:
+    expect(name, values, Sequence)
+    for value in values:  # type: ignore[attr-defined]
+        expect(f"each of {name}", value, kind)

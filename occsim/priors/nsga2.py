@@ -20,7 +20,7 @@ import numpy as np
 
 from occsim._extras import needs_extra
 from occsim._types import FloatArray, Progress
-from occsim.errors import ParameterError, require_choice
+from occsim.errors import ParameterError, choice, real_number, whole_number
 from occsim.priors.front import ParetoFront, front_of, hypervolume
 from occsim.priors.objectives import AnyObjective, ObjectiveFunction, as_objective
 
@@ -114,23 +114,27 @@ def nsga2_generations(
 
     Raises
     ------
+    TypeError
+        Where the objective is none of these.
     ParameterError
         At once where a value lies outside its domain; on the way where the objective
         returns something else than precision and recall.
     """
-    _require_whole("pop_size", pop_size, 4, 10_000)
-    _require_whole("n_gen", n_gen, 1, 10_000)
-    _require_whole("seed", seed, 0, 2**32 - 1)
-    require_choice("elitism", elitism, Elitism)
+    pop_size = whole_number("pop_size", pop_size, 4, 10_000)
+    n_gen = whole_number("n_gen", n_gen, 1, 10_000)
+    seed = whole_number("seed", seed, 0, 2**32 - 1)
+    low, high = real_number("low", low), real_number("high", high)
     if not 0.0 < low < high <= 1.0:
         raise ParameterError(
             f"low and high must satisfy 0 < low < high <= 1; got {low!r} and {high!r}"
         )
+    pareto_fraction = real_number("pareto_fraction", pareto_fraction)
     if not 0.0 < pareto_fraction < 1.0:
         raise ParameterError(
             f"pareto_fraction must lie in (0, 1); got {pareto_fraction!r}"
         )
-    ratio = None if elitism is Elitism.FULL else 1.0 - pareto_fraction
+    full = choice("elitism", elitism, Elitism) is Elitism.FULL
+    ratio = None if full else 1.0 - pareto_fraction
     algorithm = _algorithm(pop_size, n_gen, seed, ratio, (low, high))
     return _run(algorithm, as_objective(objective), ref)
 
@@ -163,6 +167,8 @@ def nsga2_front(
 
     Raises
     ------
+    TypeError
+        Where the objective is none of those.
     ParameterError
         Where a value lies outside its domain, or the objective returns something else
         than precision and recall.
@@ -181,13 +187,6 @@ def nsga2_front(
         if on_progress is not None:
             on_progress(generation.number, n_gen)
     return generation.front()
-
-
-def _require_whole(name: str, value: object, least: int, most: int) -> None:
-    if not isinstance(value, (int, np.integer)) or not least <= value <= most:
-        raise ParameterError(
-            f"{name} must be a whole number, {least} to {most:,}; got {value!r}"
-        )
 
 
 def _algorithm(

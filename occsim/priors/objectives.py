@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from occsim._types import BoolArray, FloatArray
-from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
+from occsim.errors import ParameterError, expect
+from occsim.evidence_log import Evidence
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, precision_of, recall_of
 from occsim.prior import PRIOR_SCALE
@@ -37,7 +37,13 @@ def interpolated_objective(sweep: PriorSweep) -> ObjectiveFunction:
     -------
     callable
         Precision and recall of pairs within the sweep's axes.
+
+    Raises
+    ------
+    TypeError
+        Where the sweep is no `PriorSweep`.
     """
+    expect("sweep", sweep, PriorSweep)
 
     def evaluate(pairs: FloatArray) -> FloatArray:
         p_wall, p_space = pairs.T
@@ -48,10 +54,10 @@ def interpolated_objective(sweep: PriorSweep) -> ObjectiveFunction:
 
 
 def exact_objective(
-    evidence: EvidenceLog,
+    evidence: Evidence,
     is_wall: BoolArray,
     truth: BoolArray,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
     scale: float = PRIOR_SCALE,
 ) -> ObjectiveFunction:
@@ -69,8 +75,8 @@ def exact_objective(
 
     Raises
     ------
-    ParameterError
-        Where a shape is not the grid's or the scale lies outside its domain.
+    TypeError, ParameterError
+        As in `prior_surface`.
     """
     surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
     return surface_objective(surface)
@@ -78,6 +84,7 @@ def exact_objective(
 
 def surface_objective(surface: PriorSurface) -> ObjectiveFunction:
     """Return the exact objective of a known surface; see `exact_objective`."""
+    expect("surface", surface, PriorSurface)
 
     def evaluate(pairs: FloatArray) -> FloatArray:
         tp, fp = surface.counts(*pairs.T)
@@ -105,7 +112,7 @@ def as_objective(objective: AnyObjective) -> ObjectiveFunction:
 
     Raises
     ------
-    ParameterError
+    TypeError
         Where it is none of these.
     """
     if isinstance(objective, PriorSweep):
@@ -113,7 +120,7 @@ def as_objective(objective: AnyObjective) -> ObjectiveFunction:
     if isinstance(objective, PriorSurface):
         return surface_objective(objective)
     if not callable(objective):
-        raise ParameterError(
+        raise TypeError(
             "objective must be a function of prior pairs, a PriorSweep or a "
             f"PriorSurface; got {type(objective).__name__}"
         )

@@ -6,30 +6,23 @@ log-odds l_0, so the counts of each class are step functions of one variable, kn
 once the levels are sorted. Every sweep and the exact Pareto front are read from them.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError, require_choice
-from occsim.evidence import EvidenceLog
+from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
+from occsim.errors import ParameterError, choice, real_array, real_number, shared_shape
+from occsim.evidence_log import Evidence, require_evidence
 from occsim.grid import cells_of
-from occsim.logodds import DECISION_EPS, is_occupied, logit
+from occsim.logodds import DECISION_EPS, LATTICE_NATS, logit
 from occsim.mapping import UpdateRule, prior_weight
 from occsim.metrics import Region
 from occsim.prior import PRIOR_SCALE
 
-LEVEL_LIMIT = 1e3
-"""Beyond the log-odds of any prior, nats: the smallest positive number has -745."""
 
-MAX_STEP = 2**60
-"""Longest stride of the search for a level, in numbers of the machine."""
-
-
-@dataclass(frozen=True, eq=False)
-class StepCount:
+@dataclass(frozen=True, eq=False, repr=False)
+class StepCount(ShortRepr):
     """How many cells of a group are declared wall, as a function of their prior.
 
     Parameters
@@ -54,12 +47,12 @@ class StepCount:
         return np.asarray(self.always + self.falling.size - freed + turned)
 
     def starts(self) -> FloatArray:
-        """Return the first level of every step, unsorted, nats."""
-        return np.concatenate((np.nextafter(self.falling, np.inf), self.rising))
+        """Return the first level of every step on the lattice, unsorted, nats."""
+        return np.concatenate((self.falling + LATTICE_NATS, self.rising))
 
 
-@dataclass(frozen=True, eq=False)
-class PriorSurface:
+@dataclass(frozen=True, eq=False, repr=False)
+class PriorSurface(ShortRepr):
     """True and false positives as exact functions of (p_wall, p_space).
 
     Parameters
@@ -100,11 +93,14 @@ class PriorSurface:
 
         Raises
         ------
+        TypeError
+            Where the values are not real numbers.
         ParameterError
-            Where a value lies outside its domain.
+            Where a value lies outside its domain, or the shapes do not broadcast.
         """
         wall = prior_levels("p_wall", p_wall, self.scale)
         space = prior_levels("p_space", p_space, self.scale)
+        shared_shape(p_wall=wall, p_space=space)
         return (
             self.wall_tp(wall) + self.space_tp(space),
             self.wall_fp(wall) + self.space_fp(space),
@@ -130,10 +126,12 @@ def prior_levels(name: str, values: npt.ArrayLike, scale: float) -> FloatArray:
 
     Raises
     ------
+    TypeError
+        Where the values are not real numbers.
     ParameterError
         Where a value lies outside its domain, or is 1 with a scale of 1.
     """
-    p = np.asarray(values, dtype=np.float64)
+    p = real_array(name, values)
     allowed = (p > 0.0) & (p <= 1.0)
     if not allowed.all():
         raise ParameterError(
@@ -147,10 +145,10 @@ def prior_levels(name: str, values: npt.ArrayLike, scale: float) -> FloatArray:
 
 
 def prior_surface(
-    evidence: EvidenceLog,
+    evidence: Evidence,
     is_wall: BoolArray,
     truth: BoolArray,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
     scale: float = PRIOR_SCALE,
 ) -> PriorSurface:
@@ -158,13 +156,13 @@ def prior_surface(
 
     Parameters
     ----------
-    evidence : EvidenceLog
+    evidence : EvidenceLog or EvidenceTotals
         What the readings said.
     is_wall : ndarray of bool, shape (R, C)
         Wall cells of the drawing.
     truth : ndarray of bool, shape (R, C)
         Cells that are wall in truth.
-    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+    rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
     region : Region, default Region.EXPLORED
         Which cells are scored.
@@ -177,103 +175,55 @@ def prior_surface(
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type.
     ParameterError
         Where a shape is not the grid's, the scale lies outside its domain, or the
         rule or region is no member of its enum.
+
+    Examples
+    --------
+    >>> from occsim import EvidenceLog, Grid, logit, prior_surface
+    >>> grid = Grid(height_px=1, width_px=1, cell_px=1)
+    >>> log = EvidenceLog(grid, [0, 1], [0], logit([0.1]))
+    >>> wall = [[True]]  # read as wall once: found unless the prior is 0.9
+    >>> prior_surface(log, wall, wall).counts([0.5, 0.99, 1.0], 0.5)[0]
+    array([1, 1, 0])
     """
+    require_evidence(evidence)
     is_wall = cells_of("is_wall", is_wall, evidence.grid)
     truth = cells_of("truth", truth, evidence.grid)
-    require_choice("region", region, Region)
+    scale = real_number("scale", scale)
     if not 0.0 < scale <= 1.0:
         raise ParameterError(f"scale must lie in (0, 1]; got {scale!r}")
     sums, counts = evidence.totals()
-    scored = counts > 0 if region is Region.EXPLORED else np.ones_like(truth)
+    explored = choice("region", region, Region) is Region.EXPLORED
+    scored = counts > 0 if explored else np.ones_like(truth)
     sums, weight = sums[scored], prior_weight(counts[scored], rule)
     wall, hit = is_wall[scored], truth[scored]
-    level = _flip_levels(sums, weight)
     groups = (wall & hit, wall & ~hit, ~wall & hit, ~wall & ~hit)
-    n_wall = int(np.count_nonzero(hit))
-    steps = [_step_count(sums[g], weight[g], level[g]) for g in groups]
-    return PriorSurface(
-        wall_tp=steps[0],
-        wall_fp=steps[1],
-        space_tp=steps[2],
-        space_fp=steps[3],
-        n_wall=n_wall,
-        n_space=hit.size - n_wall,
-        scale=scale,
+    wall_tp, wall_fp, space_tp, space_fp = (
+        _step_count(sums[g], weight[g]) for g in groups
     )
+    n_wall = int(np.count_nonzero(hit))
+    n_space = hit.size - n_wall
+    return PriorSurface(wall_tp, wall_fp, space_tp, space_fp, n_wall, n_space, scale)
 
 
-def _flip_levels(sums: FloatArray, weight: FloatArray) -> FloatArray:
-    """Return the outermost l_0 at which each cell is still declared wall.
+def _step_count(sums: FloatArray, weight: FloatArray) -> StepCount:
+    """Return the steps of cells with readings of these sums S and weights w of l_0.
 
-    Rounding is monotone, so ``fl(S + fl(w l_0))`` crosses the decision level at one
-    number of the machine; it is found to the last bit, which makes every count equal
-    to that of a fused map, at ties too. Cells of weight 0 get NaN.
+    In steps of the lattice S, l_0 and the decision level are whole numbers: the last
+    l_0 with ``S + w l_0 < -DECISION_EPS`` is a division of whole numbers, so every
+    count equals that of a fused map, at ties too.
     """
-    moved = weight != 0.0
-    s, w = sums[moved], weight[moved]
-    # Places are counted towards the side on which the cell is free.
-    side = np.where(w > 0.0, 1, -1)
-
-    def occupied(place: IntArray) -> BoolArray:
-        return is_occupied(s + w * _number_at(side * place))
-
-    guess = np.clip((-DECISION_EPS - s) / w, -LEVEL_LIMIT, LEVEL_LIMIT)
-    levels = np.full_like(sums, np.nan)
-    levels[moved] = _number_at(side * _last_true(occupied, side * _place_of(guess)))
-    return levels
-
-
-def _last_true(holds: Callable[[IntArray], BoolArray], guess: IntArray) -> IntArray:
-    """Return the last place at which something holds that later ends for good.
-
-    Parameters
-    ----------
-    holds : callable
-        From one place a cell, (N,), to flags (N,): true up to some place.
-    guess : ndarray of int64, shape (N,)
-        Usually within one of the answer; far off where S and the width of the tie band
-        all but cancel.
-
-    Returns
-    -------
-    ndarray of int64, shape (N,)
-        Within the places of ``LEVEL_LIMIT``; its ends where the answer lies beyond.
-    """
-    last = int(_place_of(np.float64(LEVEL_LIMIT)))
-    low, high = np.maximum(guess - 1, -last), np.minimum(guess + 1, last)
-    step = 2
-    while (short := ~holds(low) & (low > -last)).any():
-        low[short] = np.maximum(low[short] - step, -last)
-        step = min(2 * step, MAX_STEP)
-    step = 2
-    while (short := holds(high) & (high < last)).any():
-        high[short] = np.minimum(high[short] + step, last)
-        step = min(2 * step, MAX_STEP)
-    while (apart := high - low > 1).any():
-        middle = low + (high - low) // 2
-        true = holds(middle)
-        low = np.where(apart & true, middle, low)
-        high = np.where(apart & ~true, middle, high)
-    return low
-
-
-def _place_of(number: FloatArray | np.float64) -> IntArray:
-    # Numbers of the machine in their order: 0 for zero, 1 for the next above it.
-    bits = np.asarray(number, dtype=np.float64).view(np.int64)
-    return np.where(bits >= 0, bits, np.iinfo(np.int64).min - bits)
-
-
-def _number_at(place: IntArray) -> FloatArray:
-    bits = np.where(place >= 0, place, np.iinfo(np.int64).min - place)
-    return bits.view(np.float64)
-
-
-def _step_count(sums: FloatArray, weight: FloatArray, level: FloatArray) -> StepCount:
+    # The largest log-odds on the lattice that are declared wall, and what S leaves.
+    wall = np.ceil(-DECISION_EPS / LATTICE_NATS) - 1.0
+    room = (wall - sums / LATTICE_NATS).astype(np.int64)
+    w = weight.astype(np.int64)
+    falls, rises = w > 0, w < 0
     return StepCount(
-        always=int(np.count_nonzero(is_occupied(sums[weight == 0.0]))),
-        falling=np.sort(level[weight > 0.0]),
-        rising=np.sort(level[weight < 0.0]),
+        always=int(np.count_nonzero(room[w == 0] >= 0)),
+        falling=np.sort(room[falls] // w[falls]) * LATTICE_NATS,
+        rising=np.sort(-(room[rises] // -w[rises])) * LATTICE_NATS,
     )

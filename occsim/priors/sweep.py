@@ -14,9 +14,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
+from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
+from occsim.errors import ParameterError, choice, expect, real_array, shared_shape
+from occsim.evidence_log import Evidence
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, f_beta_of, precision_of, recall_of
 from occsim.prior import PRIOR_SCALE
@@ -33,8 +33,8 @@ class Objective(Enum):
     RECALL = "recall"
 
 
-@dataclass(frozen=True, eq=False)
-class PriorSweep:
+@dataclass(frozen=True, eq=False, repr=False)
+class PriorSweep(ShortRepr):
     """Scores at every pair of two axes of prior values.
 
     Parameters
@@ -71,11 +71,11 @@ class PriorSweep:
 
     def values(self, objective: Objective) -> FloatArray:
         """Return the table of one objective, (A, B)."""
-        return self.precision if objective is Objective.PRECISION else self.recall
+        return getattr(self, choice("objective", objective, Objective).value)  # type: ignore[no-any-return]
 
 
-@dataclass(frozen=True, eq=False)
-class Maxima:
+@dataclass(frozen=True, eq=False, repr=False)
+class Maxima(ShortRepr):
     """The largest value in a sweep and every pair that attains it.
 
     Parameters
@@ -95,12 +95,12 @@ class Maxima:
 
 
 def sweep_priors(
-    evidence: EvidenceLog,
+    evidence: Evidence,
     is_wall: BoolArray,
     truth: BoolArray,
     p_wall: npt.ArrayLike,
     p_space: npt.ArrayLike,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
     scale: float = PRIOR_SCALE,
 ) -> PriorSweep:
@@ -123,9 +123,21 @@ def sweep_priors(
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type.
     ParameterError
         Where a value lies outside its domain, an axis is not one-dimensional, or a
         shape is not the grid's.
+
+    Examples
+    --------
+    >>> from occsim import EvidenceLog, Grid, logit, sweep_priors
+    >>> grid = Grid(height_px=1, width_px=1, cell_px=1)
+    >>> log = EvidenceLog(grid, [0, 1], [0], logit([0.1]))
+    >>> wall = [[True]]
+    >>> sweep_priors(log, wall, wall, [0.2, 1.0], [0.9]).recall
+    array([[1.],
+           [0.]])
     """
     surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
     return sweep_surface(surface, p_wall, p_space)
@@ -152,7 +164,11 @@ def sweep_surface(
     ParameterError
         Where a value lies outside its domain or an axis is not one-dimensional.
     """
-    axes = [np.array(axis, dtype=np.float64) for axis in (p_wall, p_space)]
+    expect("surface", surface, PriorSurface)
+    axes = [
+        real_array(name, axis).copy()
+        for name, axis in (("p_wall", p_wall), ("p_space", p_space))
+    ]
     for name, axis in zip(("p_wall", "p_space"), axes, strict=True):
         if axis.ndim != 1:
             raise ParameterError(
@@ -189,13 +205,17 @@ def interpolate(
 
     Raises
     ------
+    TypeError
+        Where an argument is of another type.
     ParameterError
-        Where the axes do not ascend or a point lies outside them.
+        Where the axes do not ascend, a point lies outside them, or shapes do not
+        broadcast.
     """
+    expect("sweep", sweep, PriorSweep)
     row, row_share = _bracket("p_wall", sweep.p_wall, p_wall)
     col, col_share = _bracket("p_space", sweep.p_space, p_space)
     table = sweep.values(objective)
-    total: FloatArray = np.zeros(np.broadcast_shapes(row.shape, col.shape))
+    total: FloatArray = np.zeros(shared_shape(p_wall=row, p_space=col))
     for i, row_weight in ((row, 1.0 - row_share), (row + 1, row_share)):
         for j, col_weight in ((col, 1.0 - col_share), (col + 1, col_share)):
             weight = row_weight * col_weight
@@ -208,7 +228,7 @@ def _bracket(
     name: str, axis: FloatArray, values: npt.ArrayLike
 ) -> tuple[IntArray, FloatArray]:
     # The interval of the axis that holds each value, and how far into it.
-    points = np.asarray(values, dtype=np.float64)
+    points = real_array(name, values)
     if axis.size < 2 or not (np.diff(axis) > 0.0).all():
         raise ParameterError(
             f"the {name} axis must ascend over at least two values; got {axis.tolist()}"
@@ -238,7 +258,15 @@ def maxima(sweep: PriorSweep, objective: Objective) -> Maxima:
     Returns
     -------
     Maxima
+
+    Raises
+    ------
+    TypeError
+        Where the sweep is no `PriorSweep`.
+    ParameterError
+        Where the objective is no `Objective`.
     """
+    expect("sweep", sweep, PriorSweep)
     table = sweep.values(objective)
     defined = table[~np.isnan(table)]
     if not defined.size:

@@ -47,6 +47,8 @@ class View:
         """Return the view of a sensor at poses of shape (N, 3)."""
         x, y, theta = np.ascontiguousarray(poses.T)
         half = min(0.5 * sensor.fov_rad + EDGE_EPS, np.pi)
+        # Bearings are small beside no heading: what they add to 1e16 rad would be lost.
+        theta = wrap_angle(theta)
         if half == np.pi:
             # A full turn has no heading, only a seam. Laid along a row of pixels it
             # meets no pixel centre whose ray grazes a corner, which on the seam would

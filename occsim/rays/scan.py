@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
+from occsim.geometry import wrap_angle
 from occsim.grid import Grid
 from occsim.rays.outline import NO_FACE, Outline, points_on_faces
 from occsim.rays.ragged import ragged_ranges
@@ -99,7 +100,7 @@ def _window(
     centre: FloatArray, axis: float, view: View, n_cells: int, cell_px: int
 ) -> tuple[IntArray, int]:
     """Return the first cell of each reading's window along one axis, and its length."""
-    off = np.abs(np.mod(view.theta - axis + np.pi, 2.0 * np.pi) - np.pi)
+    off = np.abs(wrap_angle(view.theta - axis))
     farthest = np.cos(np.maximum(off - view.half, 0.0))
     nearest = np.cos(np.minimum(off + view.half, np.pi))
     low = centre + view.reach * np.minimum(nearest, 0.0) - 1.0

@@ -3,6 +3,7 @@
 import numpy as np
 
 from occsim._types import BoolArray, FloatArray, IntArray
+from occsim.geometry import wrap_angle
 from occsim.rays.outline import NO_FACE, Outline, lateral_slope
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View, first_pixel_is_wall
@@ -108,8 +109,7 @@ def _wall_next_to_robot(
     col = np.floor(x).astype(np.int64)[:, None] + col.ravel()
     dx, dy = col + 0.5 - x[:, None], row + 0.5 - y[:, None]
     distance = np.hypot(dx, dy)
-    off = np.arctan2(dy, dx) - theta[:, None]
-    off = np.abs(np.mod(off + np.pi, 2.0 * np.pi) - np.pi)
+    off = np.abs(wrap_angle(np.arctan2(dy, dx) - theta[:, None]))
     quadrant = np.where(dy > 0, np.where(dx > 0, 0, 1), np.where(dx > 0, 3, 2))
     kept = np.take_along_axis(starts_in_wall[reading], quadrant, axis=1)
     kept &= (distance > OWN_PIXEL_EPS_PX) & (off <= view.half)

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from occsim._types import FloatArray
-from occsim.errors import ParameterError
-from occsim.evidence import EvidenceLog
-from occsim.logodds import logit
+from occsim.errors import choice, expect, whole_number
+from occsim.evidence_log import EvidenceLog
+from occsim.grid import same_grid
 from occsim.mapping import OccupancyMap, UpdateRule
 from occsim.prior import PriorMap
 
@@ -49,7 +49,7 @@ class StepCost:
 def fuse_stepwise(
     evidence: EvidenceLog,
     prior_map: PriorMap,
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
 ) -> OccupancyMap:
     """Return the map of all readings, updated by one reading after another.
 
@@ -59,32 +59,33 @@ def fuse_stepwise(
         What the readings said.
     prior_map : PriorMap
         The prior on the same grid.
-    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+    rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
 
     Returns
     -------
     OccupancyMap
-        What `fuse` gives, up to rounding.
+        What `fuse` gives, to the last bit.
 
     Raises
     ------
+    TypeError
+        Where evidence or prior map is of another type.
     ParameterError
         Where the grids differ.
     """
-    if evidence.grid != prior_map.grid:
-        raise ParameterError(
-            "evidence and prior map must lie on the same grid; got "
-            f"{evidence.grid} and {prior_map.grid}"
-        )
-    log_odds = logit(prior_map.p_free).ravel()
-    # Every prior takes the same operations, the uninformative one subtracts zeros.
-    subtract = rule is UpdateRule.SUBTRACT_PRIOR
-    subtracted = log_odds.copy() if subtract else np.zeros_like(log_odds)
+    expect("evidence", evidence, EvidenceLog)
+    expect("prior_map", prior_map, PriorMap)
+    same_grid(evidence=evidence.grid, prior_map=prior_map.grid)
+    log_odds = prior_map.log_odds.ravel()
+    # Every prior and either rule take the same operations; some subtract zeros.
+    once = choice("rule", rule, UpdateRule) is UpdateRule.PRIOR_ONCE
+    subtracted = np.zeros_like(log_odds) if once else log_odds.copy()
     n_updates = np.zeros(log_odds.size, dtype=np.int64)
     for start, stop in zip(evidence.indptr[:-1], evidence.indptr[1:], strict=True):
         cell = evidence.cell[start:stop]
-        # l_k = l_(k-1) + logit(p_free(reading k)) - l_0; a reading names a cell once.
+        # l_k = l_(k-1) + logit(p_free(reading k)), less l_0 with SUBTRACT_PRIOR; a
+        # reading names a cell once.
         log_odds[cell] += evidence.log_odds[start:stop] - subtracted[cell]
         n_updates[cell] += 1
     shape = evidence.grid.shape
@@ -96,7 +97,7 @@ def fuse_stepwise(
 def step_costs(
     evidence: EvidenceLog,
     prior_maps: Sequence[PriorMap],
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR,
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     repeats: int = 7,
 ) -> list[StepCost]:
     """Measure what one reading's update costs with each of some priors.
@@ -110,7 +111,7 @@ def step_costs(
         What the readings said.
     prior_maps : sequence of PriorMap
         Priors on the same grid.
-    rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
+    rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
     repeats : int, default 7
         Runs for each prior, at least 1.
@@ -125,8 +126,7 @@ def step_costs(
     ParameterError
         Where the grids differ or `repeats` is below 1.
     """
-    if repeats < 1:
-        raise ParameterError(f"repeats must be at least 1; got {repeats!r}")
+    repeats = whole_number("repeats", repeats, 1, 1_000_000)
     seconds = np.empty((len(prior_maps), repeats))
     for turn in range(repeats):
         for i, prior_map in enumerate(prior_maps):

@@ -2,14 +2,13 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from enum import Enum
 from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from occsim.building import Building, building_from_drawing, building_from_sample
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, choice
 from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, Scores
@@ -36,7 +35,7 @@ class StudySettings:
     Parameters
     ----------
     rule : UpdateRule, default UpdateRule.SUBTRACT_PRIOR
-        How a reading enters the map.
+        How a reading enters the map: as in the source, as we reconstruct it.
     region : Region, default Region.EXPLORED
         Which cells are scored.
     behind_hit : BehindHit, default BehindHit.OCCUPIED
@@ -62,17 +61,9 @@ class StudySettings:
     truth_share: float = 0.0
 
     def __post_init__(self) -> None:
-        kinds: tuple[tuple[str, type[Enum]], ...] = (
-            ("rule", UpdateRule),
-            ("region", Region),
-            ("behind_hit", BehindHit),
-        )
-        for name, kind in kinds:
-            value = getattr(self, name)
-            if not isinstance(value, kind):
-                raise ParameterError(
-                    f"{name} must be one of {kind.__name__}; got {value!r}"
-                )
+        kinds = {"rule": UpdateRule, "region": Region, "behind_hit": BehindHit}
+        for name, kind in kinds.items():
+            object.__setattr__(self, name, choice(name, getattr(self, name), kind))
         if not 0.0 < self.low <= self.high <= 1.0:
             raise ParameterError(
                 "low and high must satisfy 0 < low <= high <= 1; got "
@@ -149,7 +140,8 @@ class StudyCase:
 
     def maxima(self, objective: Objective) -> Maxima:
         """Return the maxima of one objective."""
-        return self.precision if objective is Objective.PRECISION else self.recall
+        chosen = choice("objective", objective, Objective)
+        return self.precision if chosen is Objective.PRECISION else self.recall
 
     @property
     def conflict(self) -> bool:

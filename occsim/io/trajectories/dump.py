@@ -8,7 +8,7 @@ from enum import Enum
 import numpy as np
 
 from occsim._types import FloatArray
-from occsim.errors import ParameterError
+from occsim.errors import choice
 from occsim.trajectory import Trajectory
 
 
@@ -54,10 +54,7 @@ def dump_trajectory(
     ParameterError
         Where `file_format` is no `TrajectoryFormat`.
     """
-    if not isinstance(file_format, TrajectoryFormat):
-        raise ParameterError(
-            f"file_format must be a TrajectoryFormat; got {file_format!r}"
-        )
+    file_format = choice("file_format", file_format, TrajectoryFormat)
     table = np.array(trajectory.poses)
     if degrees and file_format is not TrajectoryFormat.TUM:
         table[:, 2] = np.degrees(table[:, 2])

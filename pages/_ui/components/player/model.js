@@ -80,7 +80,8 @@ function expandRuns(runs, gap, length, nEntries) {
   return { indptr, cell };
 }
 
-const logit = (p) => Math.log(p) - Math.log1p(-p);
+// On the lattice of occsim.logodds: sums and ties are exact.
+const logit = (p) => Math.round((Math.log(p) - Math.log1p(-p)) * 2 ** 36) / 2 ** 36;
 
 function pFreeOf(logOdds) {
   const small = Math.exp(-Math.abs(logOdds));
