@@ -78,7 +78,7 @@ def straightened(building: Building, tilt_rad: float) -> Building:
         Anything made on its drawing turns with it; rectangles drawn by hand keep two of
         their corners and stay upright.
     tilt_rad : float
-        As from `occsim.imaging.transform.estimate_tilt`, rad.
+        As from `occsim.imaging.tilt.estimate_tilt`, rad.
 
     Returns
     -------

@@ -20,7 +20,7 @@ from occsim import (
 from occsim._types import FloatArray
 from occsim.building import Building, building_from_drawing, building_from_sample
 from occsim.imaging import Drawing
-from occsim.imaging.transform import estimate_tilt
+from occsim.imaging.tilt import estimate_tilt
 from occsim.io.images import drawing_png, png
 from occsim.io.replay import MAX_ENTRIES, pack_replay
 from occsim.priors import (
