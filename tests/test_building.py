@@ -12,14 +12,13 @@ from occsim.building import (
     CorrectedMask,
     building_from_drawing,
     building_from_sample,
-    cropped,
     empty_mask,
     random_trajectory,
     sketched_trajectory,
-    straightened,
+    transformed,
     truth_from_image,
-    turned,
 )
+from occsim.imaging.transform import Transform
 from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
 from occsim.sensor import Sensor
 from occsim.strokes import Stroke, StrokeKind
@@ -52,6 +51,20 @@ def building(**changes):
         "metres_per_px": 0.09,
     }
     return Building(**{**parts, **changes})
+
+
+def turned(building, turns):
+    turn = Transform.quarter_turns(building.drawing.shape, turns)
+    return transformed(building, turn)
+
+
+def cropped(building, *box):
+    return transformed(building, Transform.crop(building.drawing.shape, *box))
+
+
+def straightened(building, tilt):
+    straight = Transform.straighten(building.drawing.shape, tilt)
+    return transformed(building, straight)
 
 
 def test_turning_turns_everything():

@@ -6,7 +6,7 @@ import pytest
 
 from occsim.imaging import Drawing, load_drawing
 from occsim.imaging.tilt import estimate_tilt
-from occsim.imaging.transform import deskew
+from occsim.imaging.transform import Transform
 from occsim.samples import FOLDER
 
 
@@ -14,11 +14,15 @@ def blank(height: int, width: int) -> np.ndarray:
     return np.full((height, width, 3), 255, np.uint8)
 
 
+def straightened(drawing: Drawing, tilt_rad: float) -> Drawing:
+    return Transform.straighten(drawing.shape, tilt_rad).drawing(drawing)
+
+
 @pytest.mark.parametrize("name", ["a", "c", "e"])
 @pytest.mark.parametrize("tilt_deg", [-8.0, -4.3, -1.1, 0.0, 0.4, 2.9, 6.6, 8.0])
 def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
     drawing = load_drawing(FOLDER / f"{name}_drawing.png")
-    turned = deskew(drawing, -np.radians(tilt_deg))
+    turned = straightened(drawing, -np.radians(tilt_deg))
     found = estimate_tilt(turned)
     assert found is not None
     assert abs(np.degrees(found) - tilt_deg) <= 0.3
@@ -26,7 +30,7 @@ def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
 
 def test_tilt_of_a_photograph_with_shadow_and_noise_is_found():
     drawing = load_drawing(FOLDER / "b_drawing.png")
-    turned = deskew(drawing, -np.radians(3.0)).rgb.astype(float)
+    turned = straightened(drawing, -np.radians(3.0)).rgb.astype(float)
     height, width, _ = turned.shape
     shadow = np.linspace(1.0, 0.5, width)[None, :, None]
     noise = np.random.default_rng(2).normal(0.0, 8.0, turned.shape)

@@ -8,7 +8,7 @@ from occsim.building.make import (
     truth_from_image,
 )
 from occsim.building.model import DOOR_WIDTH_M, Building, CorrectedMask, empty_mask
-from occsim.building.reshape import cropped, straightened, turned
+from occsim.building.reshape import transformed
 
 __all__ = [
     "DOOR_WIDTH_M",
@@ -16,11 +16,9 @@ __all__ = [
     "CorrectedMask",
     "building_from_drawing",
     "building_from_sample",
-    "cropped",
     "empty_mask",
     "random_trajectory",
     "sketched_trajectory",
-    "straightened",
     "truth_from_image",
-    "turned",
+    "transformed",
 ]

@@ -6,7 +6,7 @@ import numpy as np
 
 from occsim.building.model import DOOR_WIDTH_M, Building, CorrectedMask
 from occsim.imaging import MAX_SIDE_PX, Drawing
-from occsim.imaging.transform import fit_to
+from occsim.imaging.transform import Transform
 from occsim.samples import load_sample
 from occsim.sensor import Sensor
 from occsim.tour import default_tour, random_poses
@@ -80,7 +80,7 @@ def building_from_drawing(
     """
     params = params or WallParams()
     height, width = drawing.shape
-    drawing = fit_to(drawing, working_px)
+    drawing = Transform.fit(drawing.shape, working_px).drawing(drawing)
     is_smaller = drawing.shape != (height, width)
     found = detect_walls(drawing, params)
     world = World(occupied=found.mask)
@@ -110,9 +110,9 @@ def truth_from_image(image: Drawing, shape: tuple[int, int]) -> CorrectedMask:
     CorrectedMask
         Of the image's own size where that does not fit, to be refused by `Building`.
     """
-    fitted = fit_to(image, max(shape))
-    chosen = fitted if fitted.shape == shape else image
-    return CorrectedMask(world_from_image(chosen).occupied)
+    fit = Transform.fit(image.shape, max(shape))
+    mask = world_from_image(image).occupied
+    return CorrectedMask(fit.mask(mask) if fit.new_shape == shape else mask)
 
 
 def random_trajectory(world: World, n: int, seed: int) -> Trajectory:

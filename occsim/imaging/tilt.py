@@ -5,7 +5,7 @@ import numpy as np
 
 from occsim._types import BoolArray, ByteArray, FloatArray
 from occsim.imaging.drawing import Drawing
-from occsim.imaging.transform import fit_to
+from occsim.imaging.transform import Transform
 
 MAX_TILT_RAD = np.radians(12.0)
 """Largest tilt that `estimate_tilt` looks for; beyond it a page was meant to lie so."""
@@ -45,7 +45,8 @@ def estimate_tilt(drawing: Drawing) -> float | None:
     rows, and those of vertical lines in few columns. The angle of the largest sum of
     squared row and column counts is sought, in steps of 0.25 and then 0.03 degrees.
     """
-    level, upright = _edge_points(fit_to(drawing, _TILT_SIDE_PX).gray)
+    small = Transform.fit(drawing.shape, _TILT_SIDE_PX).drawing(drawing)
+    level, upright = _edge_points(small.gray)
     if len(level) + len(upright) < _FEWEST_EDGES:
         return None
     n_coarse = round(MAX_TILT_RAD / _COARSE_STEP_RAD)

@@ -5,7 +5,7 @@ Arguments with a leading underscore are not part of a key; their digest is.
 
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -18,9 +18,15 @@ from occsim import (
     load_sample,
 )
 from occsim._types import FloatArray
-from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.building import (
+    Building,
+    building_from_drawing,
+    building_from_sample,
+    transformed,
+)
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
+from occsim.imaging.transform import Transform
 from occsim.io.images import drawing_png, png
 from occsim.io.replay import MAX_ENTRIES, pack_replay
 from occsim.priors import (
@@ -267,12 +273,10 @@ def _backdrop(digest: str, _drawing: Drawing) -> bytes:
         return drawing_png(_drawing)
 
 
-def reshaped(
-    change: Callable[..., Building], building: Building, *args: float
-) -> Building:
+def reshaped(building: Building, transform: Transform) -> Building:
     """A building with its drawing cropped or turned; kept in the session."""
     with core():
-        return change(building, *args)
+        return transformed(building, transform)
 
 
 def tilt(drawing: Drawing) -> float | None:
