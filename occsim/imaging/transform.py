@@ -199,7 +199,7 @@ class Transform:
         self._check(drawing.shape, "drawing")
         if self._is_identity:
             return drawing
-        if self._shrinks:
+        if self.scale < 1.0:
             size = self.new_shape[::-1]
             rgb = cv2.resize(drawing.rgb, size, interpolation=cv2.INTER_AREA)
         else:
@@ -229,7 +229,7 @@ class Transform:
         self._check(mask.shape, "mask")
         if self._is_identity:
             return mask
-        if not self._shrinks:
+        if self.scale == 1.0:
             moved = self._warped(mask.astype(np.uint8), cv2.INTER_NEAREST, (0,))
             return np.asarray(moved > 0)
         rows, cols = np.nonzero(mask)
@@ -272,14 +272,16 @@ class Transform:
         return np.column_stack([self.points(rows[:, :2]), rows[:, 2] + turn])
 
     @property
+    def scale(self) -> float:
+        """Length in the new drawing of what was one pixel long; 1 for turns."""
+        scale = float(np.sqrt(abs(np.linalg.det(self.matrix[:, :2]))))
+        # The rounding of a sine makes no turn a change of size.
+        return scale if scale < 1.0 - 1e-9 else 1.0
+
+    @property
     def _is_identity(self) -> bool:
         is_same = bool((self.matrix == np.eye(2, 3)).all())
         return is_same and self.new_shape == self.old_shape
-
-    @property
-    def _shrinks(self) -> bool:
-        """Whether the scale is below 1; turns alone keep it, up to rounding."""
-        return bool(abs(np.linalg.det(self.matrix[:, :2])) < 1.0 - 1e-9)
 
     def _warped(
         self, image: ByteArray, interpolation: int, border: tuple[int, ...]
