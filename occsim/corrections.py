@@ -296,4 +296,7 @@ def _inflated(packed: bytes, most: int) -> ByteArray:
         raise ParameterError(f"packed pixels may hold {most} bytes; these hold more")
     if not stream.eof:
         raise ParameterError("packed pixels must be complete; these are cut short")
+    if stream.unused_data:
+        n_more = len(stream.unused_data)
+        raise ParameterError(f"packed pixels must end; {n_more} bytes follow")
     return np.frombuffer(content, dtype=np.uint8)

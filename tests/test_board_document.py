@@ -2,6 +2,7 @@
 
 import base64
 import json
+import zlib
 from dataclasses import replace
 
 import numpy as np
@@ -118,6 +119,17 @@ def test_the_whole_of_a_drawing_may_be_scribbled_over():
     scribble = Corrections.from_masks(added, ~added)
     drawn = decode_commit(commit(scribble), document(), BoardMode.WALLS)
     assert drawn.overlay == scribble
+
+
+def test_a_commit_longer_than_its_drawing_allows_is_not_decoded():
+    drawn = commit(box(1, 1, 9, 9))
+    packed = zlib.compress(zlib.decompress(base64.b64decode(drawn["tiles"])), level=0)
+    # Empty blocks after the header of two bytes: valid, and as long as one likes.
+    for n_blocks, is_taken in ((5, True), (5000, False)):
+        padded = packed[:2] + b"\x00\x00\x00\xff\xff" * n_blocks + packed[2:]
+        tiles = base64.b64encode(padded).decode()
+        taken = decode_commit(drawn | {"tiles": tiles}, document(), BoardMode.WALLS)
+        assert (taken is not None) == is_taken
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Corrections: an overlay of added and erased pixels, small, and taken tile by tile."""
 
 import math
+import tracemalloc
 import zlib
 
 import numpy as np
@@ -159,7 +160,7 @@ WHOLE = EVERY_TILE + b"\x00" * 6 * 1024
         (b"no zlib", "must be zlib data"),
         (zlib.compress(WHOLE)[:-3], "cut short"),
         (zlib.compress(WHOLE + b"\x00"), "may hold 6145 bytes; these hold more"),
-        (zlib.compress(b"\x00" * 50_000_000), "may hold 6145 bytes; these hold more"),
+        (zlib.compress(WHOLE) + b"more", "must end; 4 bytes follow"),
         (zlib.compress(b""), "must hold 1 bytes of flags"),
         (zlib.compress(WHOLE[:-1]), "for each tile that is set; got 6144 bytes"),
         (zlib.compress(b"\x04" + WHOLE[1:]), "got 6145 bytes"),
@@ -170,6 +171,16 @@ WHOLE = EVERY_TILE + b"\x00" * 6 * 1024
 def test_bytes_that_are_no_tiles_are_refused(sent, message):
     with pytest.raises(ParameterError, match=message):
         Corrections.none(SHAPE).with_tiles(sent)
+
+
+def test_a_bomb_is_not_unpacked():
+    bomb = zlib.compress(bytes(50_000_000))
+    tracemalloc.start()
+    with pytest.raises(ParameterError, match="may hold 6145 bytes; these hold more"):
+        Corrections.none(SHAPE).with_tiles(bomb)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1_000_000
 
 
 # --- Packing --------------------------------------------------------------------------
