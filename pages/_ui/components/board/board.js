@@ -4,7 +4,7 @@ const boards = new WeakMap(); // by the element that Streamlit gives us
 const memory = new Map(); // by key: what a board held when it left the screen
 
 export default function (component) {
-  const { data, key, parentElement, setStateValue } = component;
+  const { data, parentElement, setStateValue } = component;
   let b = boards.get(parentElement);
   if (!b || !b.root.isConnected) {
     if (b) close(b);

@@ -37,7 +37,10 @@ function holdsTheSame(doc, other) {
   );
 }
 
-const areEqual = (a, b) => a.length === b.length && a.every((value, i) => value === b[i]);
+function areEqual(a, b) {
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+  return a.length === b.length;
+}
 
 // --- Corrections: a step is a patch, runs of pixels with what they were before. ---
 
@@ -89,39 +92,48 @@ function touch(b, box) {
   }
 }
 
-// One flag for each tile, whether it differs from what was imposed; then, for each that
+// One bit for each tile, whether it differs from what was imposed; then, for each that
 // does, its added and its erased pixels: as occsim.Corrections.with_tiles reads them.
 function changedTiles(b) {
   const { touched } = b.doc;
   const changed = [];
-  touched.forEach((flag, tile) => flag && differs(b, tile) && changed.push(tile));
-  const area = b.header.tilePx ** 2;
-  const head = 8 * Math.ceil(touched.length / 8);
-  const flags = new Uint8Array(head + 2 * area * changed.length);
+  touched.forEach((flag, tile) => flag && differs(b.doc, tileOf(b, tile)) && changed.push(tile));
+  const head = Math.ceil(touched.length / 8);
+  const size = (2 * b.header.tilePx ** 2) / 8;
+  const bytes = new Uint8Array(head + size * changed.length);
   changed.forEach((tile, k) => {
-    flags[tile] = 1;
-    const at = head + 2 * area * k;
-    eachPixel(b, tile, (pixel, place) => {
-      const value = b.doc.overlay[pixel];
-      if (value) flags[at + (value === ERASED ? area : 0) + place] = 1;
-    });
+    setBit(bytes, tile);
+    packTile(b.doc.overlay, tileOf(b, tile), bytes.subarray(head + size * k, head + size * (k + 1)));
   });
-  return packBits(flags);
+  return bytes;
 }
 
-function differs(b, tile) {
-  let is = false;
-  eachPixel(b, tile, (pixel) => (is ||= b.doc.overlay[pixel] !== b.doc.imposed[pixel]));
-  return is;
-}
+const setBit = (bytes, i) => (bytes[i >> 3] |= 128 >> (i & 7));
 
-// Calls for each pixel of a tile that lies in the drawing, with its place in the tile.
-function eachPixel(b, tile, call) {
+// The part of a tile that lies in the drawing: rows of `width` pixels from `first` on.
+function tileOf(b, tile) {
   const side = b.header.tilePx;
-  const [x0, y0] = [(tile % b.doc.columns) * side, Math.floor(tile / b.doc.columns) * side];
-  const [w, h] = [Math.min(side, b.size.width - x0), Math.min(side, b.size.height - y0)];
-  for (let y = 0; y < h; y++) {
-    for (let x = 0; x < w; x++) call((y0 + y) * b.size.width + x0 + x, y * side + x);
+  const [x, y] = [(tile % b.doc.columns) * side, Math.floor(tile / b.doc.columns) * side];
+  const [width, height] = [Math.min(side, b.size.width - x), Math.min(side, b.size.height - y)];
+  return { first: y * b.size.width + x, stride: b.size.width, width, height, side };
+}
+
+function differs({ overlay, imposed }, tile) {
+  for (let row = 0; row < tile.height; row++) {
+    const first = tile.first + row * tile.stride;
+    for (let i = first; i < first + tile.width; i++) if (overlay[i] !== imposed[i]) return true;
+  }
+  return false;
+}
+
+function packTile(overlay, tile, bytes) {
+  for (let row = 0; row < tile.height; row++) {
+    const first = tile.first + row * tile.stride;
+    for (let col = 0; col < tile.width; col++) {
+      const value = overlay[first + col];
+      const plane = value === ERASED ? tile.side : 0;
+      if (value) setBit(bytes, (plane + row) * tile.side + col);
+    }
   }
 }
 

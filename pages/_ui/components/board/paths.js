@@ -73,7 +73,7 @@ function removePoint(b, index) {
   setPoints(b, b.doc.points.toSpliced(index, 1));
 }
 
-function freehand(b, p, event) {
+function freehand(b, p) {
   const before = b.doc.points;
   const raw = [p];
   b.selected = -1;
