@@ -405,7 +405,7 @@ def test_waypoints_are_moved_inserted_deleted_and_restored(path):
 
 
 def test_free_hand_line_becomes_a_polyline_of_few_points(path):
-    path.tool("freehand")
+    path.root.locator("canvas").press("f")
     path.drag((40, 40), (200, 40), (200, 90), steps=30)
     points = path.until(lambda facts: facts["points"])["points"]
     assert near(points[0], 40, 40)
