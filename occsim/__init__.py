@@ -6,6 +6,8 @@ sensor says (once, free of any prior), the map that any prior then gives, how go
 map is, and which priors are best.
 """
 
+from occsim.building import Building
+from occsim.corrections import Corrections
 from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
 from occsim.evidence import collect_evidence, collect_totals, stream_evidence
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
@@ -63,6 +65,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "BehindHit",
+    "Building",
+    "Corrections",
     "Drawing",
     "DrawingError",
     "Elitism",

@@ -1,26 +1,13 @@
-"""Working size, crop, quarter turns and tilt of drawings."""
+"""One transform: working size, crop, quarter turns and straightening."""
 
-import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from occsim.errors import DrawingError, ParameterError
-from occsim.imaging import Drawing, load_drawing
-from occsim.imaging.transform import (
-    crop,
-    crop_matrix,
-    deskew,
-    deskew_matrix,
-    estimate_tilt,
-    fit_matrix,
-    fit_to,
-    move_points,
-    rotate90,
-    rotate90_matrix,
-)
-from occsim.samples import FOLDER
+from occsim.imaging import Drawing
+from occsim.imaging.transform import Transform
 
 
 def blank(height: int, width: int) -> np.ndarray:
@@ -41,11 +28,15 @@ def centre_of_ink(drawing: Drawing) -> np.ndarray:
     return np.array([(cols * ink).sum(), (rows * ink).sum()]) / ink.sum()
 
 
+def fitted(drawing: Drawing, max_side_px: int) -> Drawing:
+    return Transform.fit(drawing.shape, max_side_px).drawing(drawing)
+
+
 def test_large_drawing_is_scaled_down_by_area():
     """Two by two pixels of 0, 0, 0 and 255 have the mean 64."""
     tile = np.array([[0, 0], [0, 255]], np.uint8)
     rgb = np.repeat(np.tile(tile, (10, 20))[:, :, None], 3, axis=2)
-    small = fit_to(Drawing(rgb=rgb, name="n"), 20)
+    small = fitted(Drawing(rgb=rgb, name="n"), 20)
     assert small.shape == (10, 20)
     assert (small.rgb == 64).all()
     assert small.name == "n"
@@ -53,39 +44,43 @@ def test_large_drawing_is_scaled_down_by_area():
 
 def test_drawing_that_fits_stays_itself():
     drawing = dot(30, 40, 10, 10)
-    assert fit_to(drawing, 40) is drawing
-    with pytest.raises(ParameterError, match="max_side_px must be 8 or more"):
-        fit_to(drawing, 7)
+    assert fitted(drawing, 40) is drawing
+    with pytest.raises(ParameterError, match="max_side_px must be 8 or more; got 7"):
+        fitted(drawing, 7)
 
 
 def test_crop_keeps_what_lies_inside_both():
     drawing = dot(30, 40, 20, 15)
-    part = crop(drawing, 10, 5, 100, 20)
+    part = Transform.crop((30, 40), 10, 5, 100, 20).drawing(drawing)
     assert part.shape == (20, 30)
     assert np.array_equal(part.rgb, drawing.rgb[5:25, 10:])
-    assert crop(drawing, -5, -5, 20, 20).shape == (15, 15)
+    corner = Transform.crop((30, 40), -5, -5, 20, 20)
+    assert corner.new_shape == (15, 15)
+    assert np.array_equal(corner.drawing(drawing).rgb, drawing.rgb[:15, :15])
     with pytest.raises(DrawingError, match="40 x 30 px; got 5 x 20 px"):
-        crop(drawing, 35, 0, 20, 20)
+        Transform.crop((30, 40), 35, 0, 20, 20)
     with pytest.raises(DrawingError, match="got 0 x 8 px"):
-        crop(drawing, 90, 0, 20, 8)
+        Transform.crop((30, 40), 90, 0, 20, 8)
 
 
 def test_quarter_turn_is_clockwise():
     """The top row becomes the right column."""
     rgb = blank(8, 12)
     rgb[0] = 0
-    turned = rotate90(Drawing(rgb=rgb))
+    turned = Transform.quarter_turns((8, 12)).drawing(Drawing(rgb=rgb))
     assert turned.shape == (12, 8)
     assert (turned.rgb[:, -1] == 0).all()
     assert (turned.rgb[:, :-1] == 255).all()
 
 
 @given(turns=st.integers(-8, 8))
-def test_four_quarter_turns_are_none(turns):
-    drawing = dot(20, 33, 5, 7)
-    back = rotate90(rotate90(drawing, turns), -turns)
-    assert back.digest == drawing.digest
-    assert rotate90(drawing, turns + 4).digest == rotate90(drawing, turns).digest
+def test_quarter_turns_are_those_of_numpy_for_drawing_and_mask(turns):
+    rgb = np.random.default_rng(1).integers(0, 256, (20, 33, 3), np.uint8)
+    turn = Transform.quarter_turns((20, 33), turns)
+    turned = turn.drawing(Drawing(rgb=rgb))
+    assert np.array_equal(turned.rgb, np.rot90(rgb, -turns))
+    mask = rgb[..., 0] > 128
+    assert np.array_equal(turn.mask(mask), np.rot90(mask, -turns))
 
 
 @settings(deadline=None)
@@ -96,33 +91,44 @@ def test_four_quarter_turns_are_none(turns):
     tilt=st.floats(-0.7, 0.7),
     side=st.integers(60, 140),
 )
-def test_points_follow_the_drawing_through_every_operation(x, y, turns, tilt, side):
-    """The dot's centre of ink lies where the matrices take its middle."""
-    drawing = dot(80, 120, x, y)
-    point = np.array([[x + 0.5, y + 0.5]])
-    assert np.allclose(centre_of_ink(drawing), point)
-    moved = rotate90(drawing, turns)
-    point = move_points(point, rotate90_matrix(drawing.shape, turns))
-    assert np.allclose(centre_of_ink(moved), point, atol=1e-6)
-    turned = deskew(moved, tilt)
-    point = move_points(point, deskew_matrix(moved.shape, tilt))
-    assert np.allclose(centre_of_ink(turned), point, atol=0.05)
-    part = crop(turned, 3, -2, 10_000, 10_000)
-    point = move_points(point, crop_matrix(3, -2))
-    assert np.allclose(centre_of_ink(part), point, atol=0.05)
-    small = fit_to(part, side)
-    point = move_points(point, fit_matrix(part.shape, side))
-    assert np.allclose(centre_of_ink(small), point, atol=0.1)
+def test_points_follow_the_drawing_through_every_transform(x, y, turns, tilt, side):
+    """The dot's centre of ink lies where the transforms take its middle."""
+    drawing, point = dot(80, 120, x, y), np.array([[x + 0.5, y + 0.5]])
+    for make, tolerance in (
+        (lambda shape: Transform.quarter_turns(shape, turns), 1e-6),
+        (lambda shape: Transform.straighten(shape, tilt), 0.05),
+        (lambda shape: Transform.crop(shape, 3, -2, 10_000, 10_000), 0.05),
+        (lambda shape: Transform.fit(shape, side), 0.1),
+    ):
+        transform = make(drawing.shape)
+        drawing, point = transform.drawing(drawing), transform.points(point)
+        assert drawing.shape == transform.new_shape
+        assert np.allclose(centre_of_ink(drawing), point, atol=tolerance)
 
 
-def test_deskew_by_nothing_changes_nothing():
+@settings(deadline=None)
+@given(turns=st.integers(0, 3), tilt=st.floats(-0.7, 0.7))
+def test_headings_turn_with_the_drawing(turns, tilt):
+    """A pose that looks at a point looks at it afterwards as well."""
+    pose, ahead = np.array([[30.0, 20.0, 0.4]]), 5.0
+    seen = pose[:, :2] + ahead * np.array([[np.cos(0.4), np.sin(0.4)]])
+    for transform in (
+        Transform.quarter_turns((80, 120), turns),
+        Transform.straighten((80, 120), tilt),
+    ):
+        x, y, theta = transform.poses(pose)[0]
+        looked_at = [x + ahead * np.cos(theta), y + ahead * np.sin(theta)]
+        np.testing.assert_allclose(transform.points(seen)[0], looked_at, atol=1e-9)
+
+
+def test_straightening_by_nothing_changes_nothing():
     drawing = dot(40, 50, 20, 20)
-    assert deskew(drawing, 0.0).digest == drawing.digest
+    assert Transform.straighten((40, 50), 0.0).drawing(drawing) is drawing
 
 
-def test_deskewed_corners_are_white_and_all_is_kept():
+def test_straightened_corners_are_white_and_all_is_kept():
     drawing = Drawing(rgb=np.zeros((60, 90, 3), np.uint8))
-    turned = deskew(drawing, np.radians(10))
+    turned = Transform.straighten((60, 90), np.radians(10)).drawing(drawing)
     # ceil(60 cos 10 + 90 sin 10) and ceil(90 cos 10 + 60 sin 10), degrees.
     assert turned.shape == (75, 100)
     assert (turned.rgb[0, 0] == 255).all()
@@ -131,37 +137,54 @@ def test_deskewed_corners_are_white_and_all_is_kept():
 
 def test_large_tilt_is_refused():
     with pytest.raises(ParameterError, match=r"\[-pi/4, pi/4\]; got 1.0"):
-        deskew(dot(20, 20, 9, 9), 1.0)
+        Transform.straighten((20, 20), 1.0)
     with pytest.raises(ParameterError, match="got nan"):
-        deskew_matrix((20, 20), float("nan"))
+        Transform.straighten((20, 20), float("nan"))
+    with pytest.raises(DrawingError, match="at most 40 megapixels; turned upright"):
+        Transform.straighten((6000, 6000), 0.5)
 
 
-@pytest.mark.parametrize("name", ["a", "c", "e"])
-@pytest.mark.parametrize("tilt_deg", [-8.0, -4.3, -1.1, 0.0, 0.4, 2.9, 6.6, 8.0])
-def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
-    drawing = load_drawing(FOLDER / f"{name}_drawing.png")
-    turned = deskew(drawing, -np.radians(tilt_deg))
-    found = estimate_tilt(turned)
-    assert found is not None
-    assert abs(np.degrees(found) - tilt_deg) <= 0.3
+# --- Masks ----------------------------------------------------------------------------
 
 
-def test_tilt_of_a_photograph_with_shadow_and_noise_is_found():
-    drawing = load_drawing(FOLDER / "b_drawing.png")
-    turned = deskew(drawing, -np.radians(3.0)).rgb.astype(float)
-    height, width, _ = turned.shape
-    shadow = np.linspace(1.0, 0.5, width)[None, :, None]
-    noise = np.random.default_rng(2).normal(0.0, 8.0, turned.shape)
-    photograph = np.clip(turned * shadow + noise, 0, 255).astype(np.uint8)
-    found = estimate_tilt(Drawing(rgb=cv2.GaussianBlur(photograph, (3, 3), 0)))
-    assert found is not None
-    assert abs(np.degrees(found) - 3.0) <= 0.3
+@settings(deadline=None)
+@given(
+    st.integers(60, 200),
+    st.integers(60, 200),
+    st.integers(8, 59),
+    st.integers(0, 2**32 - 1),
+)
+def test_no_wall_pixel_is_lost_when_a_mask_is_shrunk(height, width, side, seed):
+    """Counted by a loop: each wall pixel's centre falls into a wall pixel."""
+    mask = np.random.default_rng(seed).random((height, width)) < 0.01
+    fit = Transform.fit((height, width), side)
+    small = np.zeros(fit.new_shape, dtype=bool)
+    for row, col in np.argwhere(mask):
+        new_row = int((row + 0.5) * fit.new_shape[0] / height)
+        small[new_row, int((col + 0.5) * fit.new_shape[1] / width)] = True
+    assert np.array_equal(fit.mask(mask), small)
 
 
-def test_drawing_without_lines_has_no_tilt():
-    assert estimate_tilt(Drawing(rgb=blank(100, 100))) is None
-    noise = np.random.default_rng(1).integers(0, 256, (300, 300, 1), np.uint8)
-    assert estimate_tilt(Drawing(rgb=np.repeat(noise, 3, axis=2))) is None
-    rgb = blank(400, 400)
-    cv2.circle(rgb, (200, 200), 150, (0, 0, 0), 3)
-    assert estimate_tilt(Drawing(rgb=rgb)) is None
+def test_walls_of_two_pixels_stay_whole_on_a_tenth_of_the_size():
+    mask = np.zeros((3000, 2000), dtype=bool)
+    mask[:, 700:702] = mask[1111:1113] = True
+    small = Transform.fit(mask.shape, 300).mask(mask)
+    assert small.shape == (300, 200)
+    assert small[:, 70].all()
+    assert small[111].all()
+    assert small.sum() == 300 + 200 - 1
+
+
+@pytest.mark.parametrize("tilt_deg", [-40.0, -3.0, 0.5, 12.0, 45.0])
+def test_a_line_of_one_pixel_is_not_broken_by_straightening(tilt_deg):
+    mask = np.zeros((80, 120), dtype=bool)
+    mask[40, 10:110] = True
+    turned = Transform.straighten(mask.shape, np.radians(tilt_deg)).mask(mask)
+    cols = np.flatnonzero(turned.any(axis=0))
+    assert np.array_equal(cols, np.arange(cols[0], cols[-1] + 1))
+    assert turned.sum() == pytest.approx(100, abs=4)
+
+
+def test_a_mask_of_another_shape_is_refused():
+    with pytest.raises(DrawingError, match=r"shape \(30, 40\).*got \(40, 30\)"):
+        Transform.quarter_turns((30, 40)).mask(np.zeros((40, 30), dtype=bool))

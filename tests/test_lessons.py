@@ -12,7 +12,6 @@ from occsim import (
     score,
     truth_cells,
 )
-from occsim.building import building_from_sample
 from occsim.prior import prior_from_cells
 from occsim.world import wall_cells
 
@@ -22,11 +21,9 @@ CELL_PX = 3
 @pytest.fixture(scope="module", params=sample_names())
 def recall(request):
     """Recall of a reference drawing by p_wall and update rule, p_space at 0.9."""
-    building = building_from_sample(request.param)
+    building = load_sample(request.param)
     grid = building.world.grid(CELL_PX)
-    log = collect_evidence(
-        building.world, building.trajectory, load_sample(request.param).sensor, grid
-    )
+    log = collect_evidence(building.world, building.trajectory, building.sensor, grid)
     is_wall = wall_cells(building.wall_mask, grid)
     truth = truth_cells(building.world, grid)
 

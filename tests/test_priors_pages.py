@@ -16,7 +16,7 @@ from occsim import (
     UpdateRule,
     sample_names,
 )
-from occsim.building import Building, CorrectedMask, empty_mask
+from occsim.building import Building
 from occsim.imaging import load_drawing
 from occsim.priors import Elitism, near_front
 from pages._ui import compute
@@ -220,11 +220,11 @@ def plan(wall=False):
 def building(*, prior_wall, true_wall, pose=(30.0, 8.0, math.pi / 2)):
     """A building of one sheet, with or without a wall in the prior and in truth."""
     sheet = plan()
-    wall = CorrectedMask(base=plan(wall=True).gray < 128)
+    wall = plan(wall=True).gray < 128
     return Building(
         drawing=sheet,
-        walls=wall if prior_wall else empty_mask(sheet),
-        truth=wall if true_wall else empty_mask(sheet),
+        found=wall & prior_wall,
+        truth=wall & true_wall,
         trajectory=Trajectory(poses=np.array([pose] * 3)),
     )
 

@@ -4,14 +4,15 @@ import io
 import re
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import pytest
 from PIL import Image
 from streamlit.testing.v1 import AppTest
 
 from occsim import load_sample
-from occsim.building import building_from_sample
 from pages._ui import compute, state
+from pages._ui.compute import with_walls
 from pages._ui.settings import Settings
 from pages._ui.shared import Store, shared, size_of
 from pages._ui.state import chosen, edits, works
@@ -48,7 +49,7 @@ def session(monkeypatch):
     monkeypatch.setattr(
         chosen.compute,
         "sample",
-        lambda name: SAMPLES.setdefault(name, building_from_sample(name)),
+        lambda name: SAMPLES.setdefault(name, with_walls(load_sample(name))),
     )
     state.prepare(BUILD)
     return Streamlit.session_state
@@ -298,12 +299,12 @@ def test_who_opens_a_link_goes_on_with_a_copy(session):
 
 
 def test_a_building_that_is_too_large_is_not_kept():
-    mine = building_from_sample("d")
+    mine = replace(load_sample("d"))
     assert Works(max_bytes=1000).keep(mine) is None
 
 
 def test_the_store_forgets_the_oldest_when_it_is_full():
-    mine = building_from_sample("d")
+    mine = replace(load_sample("d"))
     store = Works(max_bytes=int(2.5 * size_of([mine])))
     keys = [store.keep(mine) for _ in range(3)]
     assert store.find(keys[0]) is None

@@ -19,18 +19,18 @@ from occsim import (
     UpdateRule,
     __version__,
 )
-from occsim.building import Building, CorrectedMask
+from occsim.building import Building
 from occsim.cli import main
 from occsim.io.images import mask_png, png
 from occsim.priors import SOURCE_AXIS, Objective, ParetoFront, PriorSweep
 from occsim.study import (
     StudyCase,
-    StudyDrawing,
     StudySettings,
     case_path,
     case_settings,
     fronts_csv,
     fronts_figure,
+    is_reference,
     load_case,
     maps_figure,
     maxima_csv,
@@ -57,12 +57,12 @@ def room(shape=(60, 80)):
 
 def drawing_of(walls, name="room", poses=((30, 30, 0.0), (40, 30, 1.5), (40, 30, 3.1))):
     grey = np.where(walls, 0, 255).astype(np.uint8)
-    building = Building(
+    return Building(
         drawing=Drawing(np.stack([grey] * 3, axis=-1), name=name),
-        walls=CorrectedMask(walls),
+        found=walls,
         trajectory=Trajectory(poses=poses),
+        sensor=Sensor(range_px=40.0, fov_rad=1.0),
     )
-    return StudyDrawing(name, building, Sensor(range_px=40.0, fov_rad=1.0))
 
 
 def case_of(tp, fp, fn, name="x", cell_px=3, is_reference=False):
@@ -106,13 +106,15 @@ def test_a_case_holds_the_scores_without_a_drawing(cases):
     """With a prior of one half the update rule and the drawing's walls are nothing."""
     bare = drawing_of(room())
     blank = Building(
-        drawing=bare.building.drawing,
-        walls=CorrectedMask(np.zeros((60, 80), dtype=bool)),
-        truth=CorrectedMask(room()),
-        trajectory=bare.building.trajectory,
+        drawing=bare.drawing,
+        found=np.zeros((60, 80), dtype=bool),
+        truth=room(),
+        trajectory=bare.trajectory,
+        sensor=bare.sensor,
+        name="blank",
     )
     once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
-    found = run_case(StudyDrawing("blank", blank, bare.sensor), 5, once)
+    found = run_case(blank, 5, once)
     assert found.blank == cases[0].blank
     assert found.blank.tp > 0
 
@@ -148,7 +150,7 @@ def test_poses_in_walls_are_left_out():
 )
 def test_a_study_without_a_hit_is_told_as_it_is(walls, poses):
     drawing = drawing_of(walls, poses=poses)
-    short = StudyDrawing(drawing.name, drawing.building, Sensor(range_px=3.0))
+    short = replace(drawing, sensor=Sensor(range_px=3.0))
     found = [run_case(short, 5)]
     assert len(found[0].front) == 0
     assert np.isnan(found[0].recall.value)
@@ -203,12 +205,11 @@ def test_published_maxima_stand_beside_those_of_the_samples():
 
 def test_published_maxima_stand_only_beside_true_samples():
     """An own drawing called "d", and sample d with its walls changed, are others."""
-    assert study_drawing("d").is_reference
     sample = study_drawing("d")
-    blank = CorrectedMask(np.zeros(sample.building.world.shape, dtype=bool))
-    moved = replace(sample.building, walls=blank)
-    for own in (drawing_of(room(), name="d"), replace(sample, building=moved)):
-        assert not own.is_reference
+    assert is_reference(sample)
+    blank = np.zeros(sample.world.shape, dtype=bool)
+    for own in (drawing_of(room(), name="d"), replace(sample, found=blank)):
+        assert not is_reference(own)
         rows = list(csv.DictReader(io.StringIO(maxima_csv([run_case(own, 3)]))))
         assert [row["published_percent"] for row in rows] == ["", ""]
 
@@ -255,9 +256,7 @@ def test_a_saved_case_comes_back_as_it_was(tmp_path, cases):
 def test_other_settings_are_another_file(tmp_path):
     drawing = drawing_of(room())
     moved = drawing_of(room(), poses=((30, 31, 0.0),))
-    reach = StudyDrawing(
-        drawing.name, drawing.building, replace(drawing.sensor, range_px=41.0)
-    )
+    reach = replace(drawing, sensor=replace(drawing.sensor, range_px=41.0))
     once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
     paths = {
         case_path(tmp_path, case_settings(*case))

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from occsim import (
+    Corrections,
     HeadingMode,
     Trajectory,
     TrajectoryFormat,
@@ -18,9 +19,9 @@ from occsim import (
     load_sample,
 )
 from occsim.io.project import Project, dump_project
-from occsim.strokes import Stroke, StrokeKind, encode_strokes
 from pages._ui.state import OPENING
 from pages._ui.your_building import poses
+from tests.boards import committed_tiles
 from tests.test_pages import control, launch, png, rooms, said, upload
 
 PAGE = "pages/2_Your_building.py"
@@ -63,6 +64,21 @@ def commit(app, key, **edits):
     app.run()
     assert not app.exception
     return app
+
+
+def dots(*rows):
+    """Corrections of `rooms`: wall of 6 x 6 px around column 50 in these rows."""
+    added = np.zeros((160, 220), dtype=bool)
+    for row in rows:
+        added[row - 3 : row + 3, 47:53] = True
+    return Corrections.from_masks(added, np.zeros_like(added))
+
+
+def paint(app, key, corrections):
+    """Let the board say that all its corrections are these now."""
+    imposed = app.session_state["boards"][key].imposed
+    tiles = committed_tiles(imposed.corrections, corrections)
+    return commit(app, key, tiles=tiles)
 
 
 @pytest.mark.parametrize("section", SECTIONS)
@@ -125,22 +141,18 @@ def test_turning_and_undoing():
 
 def test_strokes_in_a_row_are_undone_and_done_again_as_one():
     app = at("4 Corrections", with_rooms())
-    dots = [
-        Stroke(kind=StrokeKind.BRUSH, points=((50, y),), width_px=6) for y in (70, 80)
-    ]
-    for n in (1, 2):
-        strokes = encode_strokes(dots[:n])
-        app = commit(app, "board_walls", first=0, strokes=strokes)
+    for rows in ((70,), (70, 80)):
+        app = paint(app, "board_walls", dots(*rows))
     app = press(app, "Undo")
-    assert own(app).walls.strokes == ()
+    assert own(app).corrections.is_empty
     app = press(app, "Redo")
-    assert own(app).walls.strokes == tuple(dots)
+    assert own(app).corrections == dots(70, 80)
     app = press(press(app, "Undo"), "Undo")
     assert app.session_state["choice"] == OPENING
 
 
 def test_a_rectangle_on_the_board_crops():
-    app = commit(with_rooms(), "board_crop", points=[[0, 0, 1], [4 * 120, 4 * 100, 1]])
+    app = commit(with_rooms(), "board_crop", points=[[0, 0, 1], [120, 100, 1]])
     app = press(app, "Crop to the rectangle")
     assert own(app).drawing.shape == (100, 120)
 
@@ -160,8 +172,9 @@ def test_a_tilted_drawing_is_offered_to_be_straightened():
 
 def test_two_clicks_across_a_door_set_range_and_scale():
     app = at("2 Scale", with_rooms())
-    # A length of 30 px, in quarters of a pixel: (10, 20) to (28, 44).
-    app = commit(app, "board_door", points=[[40, 80, 1], [112, 176, 1]])
+    # A length of 30 px.
+    app = commit(app, "board_door", points=[[10, 20, 1], [28, 44, 1]])
+    assert own(app).sensor.range_px == 30.0
     assert own(app).door_px == 30.0
     assert own(app).metres_per_px == pytest.approx(0.03)
     assert app.session_state["settings"].range_px == 30
@@ -178,9 +191,8 @@ def test_two_clicks_across_a_door_set_range_and_scale():
 
 def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
     app = at("4 Corrections", with_rooms())
-    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
-    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
-    assert own(app).walls.strokes == (dot,)
+    app = paint(app, "board_walls", dots(80))
+    assert own(app).corrections == dots(80)
     assert own(app).wall_mask[80, 50]
     app = at("3 Walls", app)
     slider = next(s for s in app.slider if s.key and s.key.startswith("wall_"))
@@ -199,57 +211,70 @@ def test_lengths_are_in_metres_where_the_scale_is_known():
     assert app.slider(key=control(app, "cell_px")).label == "Cell size (px)"
 
 
+def test_corrections_are_counted_and_discarded():
+    app = paint(at("4 Corrections", with_rooms()), "board_walls", dots(80))
+    counted = "36 px added, 0 px erased"
+    assert any(caption.value == counted for caption in app.caption)
+    app = press(app, "Discard all corrections")
+    assert own(app).corrections.is_empty
+    button = next(b for b in app.button if b.label == "Discard all corrections")
+    assert button.disabled
+
+
+def test_a_crop_plans_the_tour_again():
+    app = commit(with_rooms(), "board_crop", points=[[0, 0, 1], [120, 160, 1]])
+    app = press(app, "Crop to the rectangle")
+    assert own(app).trajectory is own(app).tour
+    assert own(app).n_outside == 0
+
+
 def test_undone_strokes_leave_the_mask():
     app = at("4 Corrections", with_rooms())
-    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
-    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
-    app = commit(app, "board_walls", first=0, strokes=[])
-    assert own(app).walls.strokes == ()
+    app = paint(app, "board_walls", dots(80))
+    app = paint(app, "board_walls", dots())
+    assert own(app).corrections.is_empty
     assert not own(app).wall_mask[80, 50]
 
 
 def test_an_edit_that_the_next_stroke_cut_short_is_finished():
     app = at("4 Corrections", with_rooms())
-    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
     boards = app.session_state["boards"]
     held = boards["board_walls"]
     # As it stands where the board knows of the stroke and the building does not yet.
     boards["board_walls"] = replace(
         held,
-        current=replace(held.current, strokes=(dot,)),
+        current=replace(held.current, overlay=dots(80)),
         source=("the mask that was about to be kept",),
         before=held.source,
     )
     app.run()
     assert not app.exception
-    assert own(app).walls.strokes == (dot,)
+    assert own(app).corrections == dots(80)
     assert app.session_state["boards"]["board_walls"].imposed is held.imposed
 
 
 def test_a_commit_that_makes_no_sense_changes_nothing():
     app = at("4 Corrections", with_rooms())
     kept = own(app)
-    app = commit(app, "board_walls", first=0, strokes=[["x", 1, 2, 3]])
-    app = commit(app, "board_walls", first=-3, strokes="all")
+    for tiles in (None, 5, "all", "eJw=", [["brush", 1, 2, 3]]):
+        app = commit(app, "board_walls", tiles=tiles)
     assert own(app) is kept
 
 
 def test_a_board_that_left_the_screen_starts_from_what_was_drawn():
     app = at("4 Corrections", with_rooms())
-    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
-    app = commit(app, "board_walls", first=0, strokes=encode_strokes([dot]))
+    app = paint(app, "board_walls", dots(80))
     rev = app.session_state["boards"]["board_walls"].imposed.rev
     app = at("4 Corrections", at("7 Keep", app))
     imposed = app.session_state["boards"]["board_walls"].imposed
-    assert imposed.strokes == (dot,)
+    assert imposed.overlay == dots(80)
     assert imposed.rev > rev
 
 
 def test_ground_truth_from_the_mask_from_nothing_and_none():
     app = press(at("5 Ground truth", with_rooms()), "Start from the wall mask")
-    np.testing.assert_array_equal(own(app).truth.mask, own(app).wall_mask)
-    dot = Stroke(kind=StrokeKind.BRUSH, points=((50, 80),), width_px=6)
-    app = commit(app, "board_truth", first=0, strokes=encode_strokes([dot]))
+    np.testing.assert_array_equal(own(app).truth, own(app).wall_mask)
+    app = paint(app, "board_truth", dots(80))
     assert own(app).world.occupied[80, 50]
     assert not own(app).wall_mask[80, 50]
     app = press(app, "Start from nothing")
@@ -265,7 +290,7 @@ def test_ground_truth_from_the_mask_from_nothing_and_none():
 def test_a_sketch_becomes_a_trajectory():
     app = at("6 Trajectory", with_rooms())
     # From (30, 80) to (70, 80) px, a waypoint at each end.
-    app = commit(app, "board_path", points=[[120, 320, 1], [280, 320, 1]])
+    app = commit(app, "board_path", points=[[30, 80, 1], [70, 80, 1]])
     np.testing.assert_allclose(
         own(app).trajectory.poses, [[x, 80, 0] for x in (30, 40, 50, 60, 70)]
     )
@@ -340,7 +365,7 @@ def test_poses_are_marked_where_they_cannot_be():
 
 def test_a_project_brings_everything_back():
     app = at("2 Scale", with_rooms())
-    app = commit(app, "board_door", points=[[40, 80, 1], [112, 176, 1]])
+    app = commit(app, "board_door", points=[[10, 20, 1], [28, 44, 1]])
     saved = own(app)
     content = dump_project(Project(building=saved, settings={"cell_px": "7"}))
     app = upload(at("7 Keep"), "Project file", "mine.zip", content, "application/zip")

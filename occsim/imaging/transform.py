@@ -1,9 +1,11 @@
-"""Bringing a drawing into shape: working size, crop, quarter turns, tilt.
+"""One motion of a drawing: crop, quarter turns, straightening or working size.
 
-Each operation returns a new `Drawing` of the same name. Beside each stands the matrix
-of shape (2, 3) that takes a point x, y (px) of the old drawing to the new one; with
-`move_points`, what was sketched on the old drawing follows.
+A `Transform` holds the matrix that takes a point x, y (px) of the old drawing to the
+new one. It is applied to the drawing and to all that was made on it: masks, points,
+poses.
 """
+
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -14,357 +16,312 @@ from occsim.errors import DrawingError, ParameterError
 from occsim.imaging.drawing import Drawing
 from occsim.imaging.source import MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
 
-MAX_TILT_RAD = np.radians(12.0)
-"""Largest tilt that `estimate_tilt` looks for; beyond it a page was meant to lie so."""
+Shape = tuple[int, int]
 
-# The tilt shows as well in a smaller picture, and faster. Walls of a thousand px move
-# by a pixel in 0.06 degrees.
-_TILT_SIDE_PX = 1000
-_TILT_POINTS = 20_000
-_COARSE_STEP_RAD = np.radians(0.25)
-_FINE_STEP_RAD = np.radians(0.03)
-# An edge changes brightness by this much from pixel to pixel, of 255.
-_EDGE_CONTRAST = 24.0
-_FEWEST_EDGES = 200
-# Rows of edge pixels at the best angle against those at a usual angle.
-_CLEAR_PEAK = 1.3
-# The part of the peak whose centre is taken.
-_PEAK_FLOOR = 0.8
+WHITE = (255, 255, 255)
+
+# Cosine and sine of the quarter turns, clockwise on the screen.
+_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 
-def move_points(points_px: npt.ArrayLike, matrix: FloatArray) -> FloatArray:
-    """Return points of the old drawing in the new one.
+@dataclass(frozen=True, eq=False)
+class Transform:
+    """A motion of a drawing and of all that was made on it.
+
+    Made by `crop`, `quarter_turns`, `straighten` or `fit`.
 
     Parameters
     ----------
-    points_px : array_like of shape (K, 2)
-        x, y, px.
     matrix : ndarray of float64, shape (2, 3)
-        From one of this module's functions.
+        Takes x, y, 1 of the old drawing to x, y of the new one, px. A private copy is
+        kept, never written to.
+    old_shape, new_shape : tuple of int
+        Height and width of the drawing before and after, px.
 
-    Returns
-    -------
-    ndarray of float64, shape (K, 2)
+    Examples
+    --------
+    >>> turn = Transform.quarter_turns((30, 40))
+    >>> turn.new_shape
+    (40, 30)
+    >>> turn.points([[0.0, 0.0]]).tolist()
+    [[30.0, 0.0]]
     """
-    points = np.asarray(points_px, dtype=np.float64)
-    return np.asarray(points @ matrix[:, :2].T + matrix[:, 2])
 
+    matrix: FloatArray
+    old_shape: Shape
+    new_shape: Shape
 
-def fit_to(drawing: Drawing, max_side_px: int) -> Drawing:
-    """Return the drawing, scaled down so that its longer side fits.
+    def __post_init__(self) -> None:
+        matrix = np.array(self.matrix, dtype=np.float64)
+        matrix.setflags(write=False)
+        object.__setattr__(self, "matrix", matrix)
 
-    Parameters
-    ----------
-    drawing : Drawing
-        Any size.
-    max_side_px : int
-        Longer side allowed, px, at least `MIN_SIDE_PX`.
+    @classmethod
+    def crop(
+        cls, shape: Shape, x_px: int, y_px: int, width_px: int, height_px: int
+    ) -> "Transform":
+        """Keep a rectangle of the drawing.
 
-    Returns
-    -------
-    Drawing
-        The drawing itself where it fits. Otherwise each new pixel is the mean of
-        those it covers, so that thin lines grow pale but do not vanish.
+        Parameters
+        ----------
+        shape : tuple of int
+            Height and width of the drawing, px.
+        x_px, y_px : int
+            Top left corner of the rectangle, px.
+        width_px, height_px : int
+            Its size, px. What reaches beyond the drawing is left out.
 
-    Raises
-    ------
-    ParameterError
-        Where `max_side_px` is too small.
-    """
-    height, width = _fitted(drawing.shape, max_side_px)
-    if (height, width) == drawing.shape:
-        return drawing
-    rgb = cv2.resize(drawing.rgb, (width, height), interpolation=cv2.INTER_AREA)
-    return _renewed(drawing, rgb)
+        Returns
+        -------
+        Transform
 
+        Raises
+        ------
+        DrawingError
+            Where less than `MIN_SIDE_PX` each way remains.
+        """
+        left, top = max(x_px, 0), max(y_px, 0)
+        width = max(min(x_px + width_px, shape[1]) - left, 0)
+        height = max(min(y_px + height_px, shape[0]) - top, 0)
+        if min(width, height) < MIN_SIDE_PX:
+            raise DrawingError(
+                f"a crop must keep at least {MIN_SIDE_PX} px each way of the drawing's "
+                f"{shape[1]} x {shape[0]} px; got {width} x {height} px"
+            )
+        return cls(np.array([[1, 0, -left], [0, 1, -top]]), shape, (height, width))
 
-def fit_matrix(shape: tuple[int, int], max_side_px: int) -> FloatArray:
-    """Return the matrix of `fit_to`.
+    @classmethod
+    def quarter_turns(cls, shape: Shape, turns: int = 1) -> "Transform":
+        """Turn the drawing by quarter turns; no pixel is lost.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Height and width of the old drawing, px.
-    max_side_px : int
-        As in `fit_to`.
+        Parameters
+        ----------
+        shape : tuple of int
+            Height and width of the drawing, px.
+        turns : int, default 1
+            Clockwise; negative ones the other way.
 
-    Returns
-    -------
-    ndarray of float64, shape (2, 3)
-    """
-    height, width = _fitted(shape, max_side_px)
-    return np.array([[width / shape[1], 0.0, 0.0], [0.0, height / shape[0], 0.0]])
+        Returns
+        -------
+        Transform
+        """
+        new_shape = shape if turns % 2 == 0 else shape[::-1]
+        return cls(_turned(*_QUARTERS[turns % 4], shape, new_shape), shape, new_shape)
 
+    @classmethod
+    def straighten(cls, shape: Shape, tilt_rad: float) -> "Transform":
+        """Turn the drawing back by its tilt, about its centre.
 
-def _fitted(shape: tuple[int, int], max_side_px: int) -> tuple[int, int]:
-    if max_side_px < MIN_SIDE_PX:
-        raise ParameterError(
-            f"max_side_px must be {MIN_SIDE_PX} or more; got {max_side_px!r}"
+        Parameters
+        ----------
+        shape : tuple of int
+            Height and width of the drawing, px.
+        tilt_rad : float
+            As from `occsim.imaging.tilt.estimate_tilt`, rad: the direction on the page,
+            from +x towards +y, of what should be horizontal; at most pi / 4 either way.
+
+        Returns
+        -------
+        Transform
+            To a larger drawing, so that no corner is lost.
+
+        Raises
+        ------
+        ParameterError
+            Where the tilt is larger or not finite.
+        DrawingError
+            Where the larger drawing would have more pixels than allowed.
+        """
+        if not abs(tilt_rad) <= np.pi / 4:
+            raise ParameterError(
+                f"tilt_rad must lie in [-pi/4, pi/4]; got {tilt_rad!r}; "
+                "larger turns are quarter turns"
+            )
+        cos, sin = float(np.cos(tilt_rad)), float(np.sin(tilt_rad))
+        new_shape = _turned_shape(shape, cos, abs(sin))
+        if new_shape[0] * new_shape[1] > MAX_PIXELS or max(new_shape) > MAX_SIDE_PX:
+            raise DrawingError(
+                f"a drawing may have at most {MAX_PIXELS / 1e6:.0f} megapixels; turned "
+                f"upright it would have {new_shape[1]:,} x {new_shape[0]:,} px"
+            )
+        return cls(_turned(cos, -sin, shape, new_shape), shape, new_shape)
+
+    @classmethod
+    def fit(cls, shape: Shape, max_side_px: int) -> "Transform":
+        """Scale the drawing down so that its longer side fits.
+
+        Parameters
+        ----------
+        shape : tuple of int
+            Height and width of the drawing, px.
+        max_side_px : int
+            Longer side allowed, px, at least `MIN_SIDE_PX`.
+
+        Returns
+        -------
+        Transform
+            The identity where the drawing fits.
+
+        Raises
+        ------
+        ParameterError
+            Where `max_side_px` is too small.
+        """
+        if max_side_px < MIN_SIDE_PX:
+            raise ParameterError(
+                f"max_side_px must be {MIN_SIDE_PX} or more; got {max_side_px!r}"
+            )
+        scale = min(1.0, max_side_px / max(shape))
+        height, width = (max(1, round(side * scale)) for side in shape)
+        down, across = height / shape[0], width / shape[1]
+        return cls(np.array([[across, 0, 0], [0, down, 0]]), shape, (height, width))
+
+    def drawing(self, drawing: Drawing) -> Drawing:
+        """Return the drawing, moved.
+
+        Parameters
+        ----------
+        drawing : Drawing
+            Of the old shape.
+
+        Returns
+        -------
+        Drawing
+            Of the same name; itself where nothing moves. New corners are white. Scaled
+            down, a pixel is the mean of those it covers: thin lines grow pale but do
+            not vanish.
+
+        Raises
+        ------
+        DrawingError
+            Where the drawing has another shape.
+        """
+        self._check(drawing.shape, "drawing")
+        if self._is_identity:
+            return drawing
+        if self.scale < 1.0:
+            size = self.new_shape[::-1]
+            rgb = cv2.resize(drawing.rgb, size, interpolation=cv2.INTER_AREA)
+        else:
+            rgb = self._warped(drawing.rgb, cv2.INTER_CUBIC, WHITE)
+        pixels: ByteArray = np.array(rgb, dtype=np.uint8, order="C")
+        return Drawing(rgb=pixels, name=drawing.name)
+
+    def mask(self, mask: BoolArray) -> BoolArray:
+        """Return a mask, moved.
+
+        Parameters
+        ----------
+        mask : ndarray of bool, shape (H, W)
+            Of the old shape.
+
+        Returns
+        -------
+        ndarray of bool
+            Of the new shape; new corners are False. Scaled down, a pixel is True where
+            any True pixel falls into it: no line is lost, however thin.
+
+        Raises
+        ------
+        DrawingError
+            Where the mask has another shape.
+        """
+        self._check(mask.shape, "mask")
+        if self._is_identity:
+            return mask
+        if self.scale == 1.0:
+            moved = self._warped(mask.astype(np.uint8), cv2.INTER_NEAREST, (0,))
+            return np.asarray(moved > 0)
+        rows, cols = np.nonzero(mask)
+        places = self.points(np.stack([cols, rows], axis=1) + 0.5).astype(np.int64)
+        out = np.zeros(self.new_shape, dtype=bool)
+        out[places[:, 1], places[:, 0]] = True
+        return out
+
+    def points(self, points_px: npt.ArrayLike) -> FloatArray:
+        """Return points of the old drawing in the new one.
+
+        Parameters
+        ----------
+        points_px : array_like of shape (K, 2)
+            x, y, px.
+
+        Returns
+        -------
+        ndarray of float64, shape (K, 2)
+            They may lie outside.
+        """
+        points = np.asarray(points_px, dtype=np.float64).reshape(-1, 2)
+        return np.asarray(points @ self.matrix[:, :2].T + self.matrix[:, 2])
+
+    def poses(self, poses: npt.ArrayLike) -> FloatArray:
+        """Return poses on the old drawing in the new one.
+
+        Parameters
+        ----------
+        poses : array_like of shape (S, 3)
+            x_px, y_px, theta_rad.
+
+        Returns
+        -------
+        ndarray of float64, shape (S, 3)
+            Headings turned along. Poses may lie outside.
+        """
+        rows = np.asarray(poses, dtype=np.float64)
+        turn = np.arctan2(self.matrix[1, 0], self.matrix[0, 0])
+        return np.column_stack([self.points(rows[:, :2]), rows[:, 2] + turn])
+
+    @property
+    def scale(self) -> float:
+        """Length in the new drawing of what was one pixel long; 1 for turns."""
+        scale = float(np.sqrt(abs(np.linalg.det(self.matrix[:, :2]))))
+        # The rounding of a sine makes no turn a change of size.
+        return scale if scale < 1.0 - 1e-9 else 1.0
+
+    @property
+    def _is_identity(self) -> bool:
+        is_same = bool((self.matrix == np.eye(2, 3)).all())
+        return is_same and self.new_shape == self.old_shape
+
+    def _warped(
+        self, image: ByteArray, interpolation: int, border: tuple[int, ...]
+    ) -> ByteArray:
+        matrix = self.matrix.copy()
+        # OpenCV counts from the centre of the first pixel, this library from its
+        # corner.
+        matrix[:, 2] += matrix[:, :2] @ (0.5, 0.5) - 0.5
+        # Whole pixels are copied, not interpolated.
+        is_whole = bool((matrix == np.round(matrix)).all())
+        warped = cv2.warpAffine(
+            image,
+            matrix,
+            self.new_shape[::-1],
+            flags=cv2.INTER_NEAREST if is_whole else interpolation,
+            borderMode=cv2.BORDER_CONSTANT,
+            borderValue=border,
         )
-    scale = min(1.0, max_side_px / max(shape))
-    height, width = (max(1, round(side * scale)) for side in shape)
-    return height, width
+        return np.asarray(warped, dtype=np.uint8)
+
+    def _check(self, shape: tuple[int, ...], what: str) -> None:
+        if shape != self.old_shape:
+            height, width = self.old_shape
+            raise DrawingError(
+                f"the {what} must have shape ({height}, {width}), that of the drawing "
+                f"to be moved; got {shape}"
+            )
 
 
-def crop(
-    drawing: Drawing, x_px: int, y_px: int, width_px: int, height_px: int
-) -> Drawing:
-    """Return a rectangle of the drawing.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        Any size.
-    x_px, y_px : int
-        Top left corner of the rectangle, px.
-    width_px, height_px : int
-        Its size, px, at least `MIN_SIDE_PX` each. What reaches beyond the drawing is
-        left out.
-
-    Returns
-    -------
-    Drawing
-
-    Raises
-    ------
-    DrawingError
-        Where less than `MIN_SIDE_PX` each way remains.
-    """
-    height, width = drawing.shape
-    left, top, right, bottom = _box(x_px, y_px, width_px, height_px, (height, width))
-    if min(right - left, bottom - top) < MIN_SIDE_PX:
-        raise DrawingError(
-            f"a crop must keep at least {MIN_SIDE_PX} px each way of the drawing's "
-            f"{width} x {height} px; got {max(right - left, 0)} x "
-            f"{max(bottom - top, 0)} px"
-        )
-    return _renewed(drawing, drawing.rgb[top:bottom, left:right])
+def _turned(cos: float, sin: float, shape: Shape, new_shape: Shape) -> FloatArray:
+    """Return the matrix of a turn that takes the old centre to the new one."""
+    turn = np.array([[cos, -sin], [sin, cos]])
+    old_centre, new_centre = (np.array(s[::-1]) / 2.0 for s in (shape, new_shape))
+    return np.column_stack([turn, new_centre - turn @ old_centre])
 
 
-def crop_matrix(x_px: int, y_px: int) -> FloatArray:
-    """Return the matrix of `crop`.
-
-    Parameters
-    ----------
-    x_px, y_px : int
-        As in `crop`.
-
-    Returns
-    -------
-    ndarray of float64, shape (2, 3)
-    """
-    return np.array([[1.0, 0.0, -max(x_px, 0)], [0.0, 1.0, -max(y_px, 0)]])
-
-
-def _box(
-    x_px: int, y_px: int, width_px: int, height_px: int, shape: tuple[int, int]
-) -> tuple[int, int, int, int]:
-    """Return left, top, right and bottom of a rectangle, inside the drawing."""
-    right, bottom = min(x_px + width_px, shape[1]), min(y_px + height_px, shape[0])
-    return max(x_px, 0), max(y_px, 0), right, bottom
-
-
-def rotate90(drawing: Drawing, turns: int = 1) -> Drawing:
-    """Return the drawing turned by quarter turns.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        Any size.
-    turns : int, default 1
-        Quarter turns clockwise; negative ones the other way.
-
-    Returns
-    -------
-    Drawing
-        The same pixels, none lost.
-    """
-    return _renewed(drawing, np.rot90(drawing.rgb, -turns))
-
-
-def rotate90_matrix(shape: tuple[int, int], turns: int = 1) -> FloatArray:
-    """Return the matrix of `rotate90`.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Height and width of the old drawing, px.
-    turns : int, default 1
-        As in `rotate90`.
-
-    Returns
-    -------
-    ndarray of float64, shape (2, 3)
-    """
-    height, width = shape
-    return np.array(
-        [
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            [[0.0, -1.0, height], [1.0, 0.0, 0.0]],
-            [[-1.0, 0.0, width], [0.0, -1.0, height]],
-            [[0.0, 1.0, 0.0], [-1.0, 0.0, width]],
-        ][turns % 4]
-    )
-
-
-def deskew(drawing: Drawing, tilt_rad: float) -> Drawing:
-    """Return the drawing turned back by its tilt.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        Any size.
-    tilt_rad : float
-        As from `estimate_tilt`, rad: the direction on the page, from +x towards +y,
-        of what should be horizontal; at most a quarter of pi either way.
-
-    Returns
-    -------
-    Drawing
-        Larger, so that no corner is lost; new corners are white.
-
-    Raises
-    ------
-    ParameterError
-        Where the tilt is larger or not finite.
-    DrawingError
-        Where the larger drawing would have more pixels than allowed.
-    """
-    matrix = deskew_matrix(drawing.shape, tilt_rad)
-    height, width = _deskewed(drawing.shape, tilt_rad)
-    if width * height > MAX_PIXELS or max(width, height) > MAX_SIDE_PX:
-        raise DrawingError(
-            f"a drawing may have at most {MAX_PIXELS / 1e6:.0f} megapixels; turned "
-            f"upright it would have {width:,} x {height:,} px"
-        )
-    # OpenCV counts from the centre of the first pixel, this library from its corner.
-    matrix[:, 2] += matrix[:, :2] @ (0.5, 0.5) - 0.5
-    rgb = cv2.warpAffine(
-        drawing.rgb,
-        matrix,
-        (width, height),
-        flags=cv2.INTER_CUBIC,
-        borderMode=cv2.BORDER_CONSTANT,
-        borderValue=(255, 255, 255),
-    )
-    return _renewed(drawing, rgb)
-
-
-def deskew_matrix(shape: tuple[int, int], tilt_rad: float) -> FloatArray:
-    """Return the matrix of `deskew`: a turn about the drawing's centre.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Height and width of the old drawing, px.
-    tilt_rad : float
-        As in `deskew`.
-
-    Returns
-    -------
-    ndarray of float64, shape (2, 3)
-
-    Raises
-    ------
-    ParameterError
-        As in `deskew`.
-    """
-    height, width = _deskewed(shape, tilt_rad)
-    cos, sin = np.cos(tilt_rad), np.sin(tilt_rad)
-    turn = np.array([[cos, sin], [-sin, cos]])
-    old_centre = np.array([shape[1], shape[0]]) / 2.0
-    shift = np.array([width, height]) / 2.0 - turn @ old_centre
-    return np.column_stack([turn, shift])
-
-
-def _deskewed(shape: tuple[int, int], tilt_rad: float) -> tuple[int, int]:
+def _turned_shape(shape: Shape, cos: float, sin: float) -> Shape:
     """Return the height and width that hold a turned page."""
-    if not abs(tilt_rad) <= np.pi / 4:
-        raise ParameterError(
-            f"tilt_rad must lie in [-pi/4, pi/4]; got {tilt_rad!r}; "
-            "larger turns are for rotate90"
-        )
     height, width = shape
-    cos, sin = np.cos(tilt_rad), abs(np.sin(tilt_rad))
-    # A hair of rounding must not add a row to a drawing that is not turned.
+    # The rounding of a sine must not add a row to a drawing that is not turned.
     new_height = np.ceil(height * cos + width * sin - 1e-6)
     new_width = np.ceil(width * cos + height * sin - 1e-6)
     return int(new_height), int(new_width)
-
-
-def estimate_tilt(drawing: Drawing) -> float | None:
-    """Return by how much a scanned or photographed drawing is turned.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        Any size; most of its long lines at right angles to each other.
-
-    Returns
-    -------
-    float or None
-        Direction, from +x towards +y, of the lines that should be horizontal, rad;
-        within `MAX_TILT_RAD` either way. None where no direction stands out.
-
-    Notes
-    -----
-    At the right angle, the edges of horizontal lines, seen along them, gather in few
-    rows, and those of vertical lines in few columns. The angle of the largest sum of
-    squared row and column counts is sought, in steps of 0.25 and then 0.03 degrees.
-    """
-    level, upright = _edge_points(fit_to(drawing, _TILT_SIDE_PX).gray)
-    if len(level) + len(upright) < _FEWEST_EDGES:
-        return None
-    n_coarse = round(MAX_TILT_RAD / _COARSE_STEP_RAD)
-    coarse = np.arange(-n_coarse, n_coarse + 1) * _COARSE_STEP_RAD
-    gathered = np.array([_gathering(level, upright, angle) for angle in coarse])
-    best = coarse[int(np.argmax(gathered))]
-    if gathered.max() < _CLEAR_PEAK * np.median(gathered):
-        return None
-    n_fine = round(2.0 * _COARSE_STEP_RAD / _FINE_STEP_RAD)
-    fine = best + np.arange(-n_fine, n_fine + 1) * _FINE_STEP_RAD
-    gathered = np.array([_gathering(level, upright, angle) for angle in fine])
-    # The centre of the peak, which short lines leave flat and jagged on top.
-    weight = np.maximum(gathered - _PEAK_FLOOR * gathered.max(), 0.0)
-    return float(fine @ weight / weight.sum())
-
-
-def _edge_points(gray: ByteArray) -> tuple[FloatArray, FloatArray]:
-    """Return edge pixels of nearly level and of nearly upright lines, each (K, 2)."""
-    across = cv2.Sobel(gray, cv2.CV_32F, 1, 0, scale=0.125)
-    down = cv2.Sobel(gray, cv2.CV_32F, 0, 1, scale=0.125)
-    # Well beyond the largest tilt; text and arcs at other angles stay out.
-    slope = np.tan(2.0 * MAX_TILT_RAD)
-    level = (np.abs(down) > _EDGE_CONTRAST) & (np.abs(across) < slope * np.abs(down))
-    upright = (np.abs(across) > _EDGE_CONTRAST) & (
-        np.abs(down) < slope * np.abs(across)
-    )
-    return _some_points(level), _some_points(upright)
-
-
-def _some_points(mask: BoolArray) -> FloatArray:
-    """Return x, y of the pixels, or of evenly spread ones where there are many."""
-    pixels = np.flatnonzero(mask)
-    # A golden-ratio stride does not fall in step with rows, as a fixed one could.
-    if len(pixels) > _TILT_POINTS:
-        spread = np.arange(_TILT_POINTS) * 0.6180339887498949 % 1.0
-        pixels = pixels[np.unique((spread * len(pixels)).astype(np.int64))]
-    rows, cols = np.divmod(pixels, mask.shape[1])
-    return np.stack([cols, rows], axis=1).astype(np.float64)
-
-
-def _gathering(level: FloatArray, upright: FloatArray, tilt_rad: float) -> float:
-    """Return how much edges gather in rows and columns of a page turned so."""
-    cos, sin = np.cos(tilt_rad), np.sin(tilt_rad)
-    total = 0.0
-    for points, normal in ((level, (-sin, cos)), (upright, (cos, sin))):
-        if len(points):
-            place = points @ np.array(normal)
-            count = np.bincount((place - place.min()).astype(np.int64))
-            total += float(count @ count)
-    return total
-
-
-def _renewed(drawing: Drawing, rgb: npt.ArrayLike) -> Drawing:
-    pixels: ByteArray = np.array(rgb, dtype=np.uint8, order="C")
-    return Drawing(rgb=pixels, name=drawing.name)

@@ -14,54 +14,24 @@ References
 """
 
 import json
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
+from occsim.building import DOOR_WIDTH_M, Building
 from occsim.errors import ParameterError
-from occsim.imaging import Drawing, load_drawing
+from occsim.imaging import load_drawing
+from occsim.io.trajectories import load_trajectory
 from occsim.sensor import Sensor
-from occsim.trajectory import Trajectory
-from occsim.world import World
+from occsim.world import world_from_image
 
 FOLDER = Path(__file__).resolve().parent
 """Where the files lie: drawings, truths, trajectories and ``samples.json``."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Sample:
-    """A drawing and all that is needed to map it.
-
-    Parameters
-    ----------
-    name : str
-        Short name, ``"a"`` to ``"e"`` for the five references.
-    title : str
-        What the building is.
-    about : str
-        What the drawing shows, a sentence or two.
-    door_px : float
-        Length of a door leaf, px.
-    drawing : Drawing
-        What the architect gives, shape (H, W).
-    world : World
-        Ground truth in register with the drawing: structure only, doors open.
-    trajectory : Trajectory
-        Poses in free space that cover the building, four headings.
-    sensor : Sensor
-        Range of one door length, field of view of pi / 6, as in the source.
-    """
-
-    name: str
-    title: str
-    about: str
-    door_px: float
-    drawing: Drawing
-    world: World
-    trajectory: Trajectory
-    sensor: Sensor
+Sample = Building
+"""A reference drawing is a building like any other, with a ground truth."""
 
 
 @lru_cache(maxsize=1)
@@ -85,7 +55,7 @@ def sample_names() -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8)
-def load_sample(name: str) -> Sample:
+def load_sample(name: str) -> Building:
     """Return a sample; the same object each time.
 
     Parameters
@@ -95,7 +65,8 @@ def load_sample(name: str) -> Sample:
 
     Returns
     -------
-    Sample
+    Building
+        Its walls are looked for when they are first needed.
 
     Raises
     ------
@@ -107,25 +78,19 @@ def load_sample(name: str) -> Sample:
             f"a sample is one of {', '.join(sample_names())}; got {name!r}"
         )
     entry = _index()[name]
-    title = str(entry["title"])
-    truth = load_drawing(FOLDER / f"{name}_truth.png").gray
-    return Sample(
+    title, door_px = str(entry["title"]), float(entry["door_px"])
+    truth = world_from_image(load_drawing(FOLDER / f"{name}_truth.png"))
+    return Building(
         name=name,
         title=title,
         about=str(entry["about"]),
-        door_px=float(entry["door_px"]),
+        door_px=door_px,
+        metres_per_px=DOOR_WIDTH_M / door_px,
         drawing=load_drawing(FOLDER / f"{name}_drawing.png", name=title),
-        world=World(occupied=truth < 128),
-        trajectory=_trajectory(FOLDER / f"{name}_trajectory.csv"),
+        truth=truth.occupied,
+        trajectory=load_trajectory(FOLDER / f"{name}_trajectory.csv"),
         sensor=Sensor(
             range_px=float(entry["range_px"]),
             fov_rad=float(np.deg2rad(float(entry["fov_deg"]))),
         ),
     )
-
-
-def _trajectory(path: Path) -> Trajectory:
-    """Read a trajectory of ours: a comment, a header, then x_px, y_px, theta_deg."""
-    poses = np.loadtxt(path, delimiter=",", skiprows=2, ndmin=2)
-    poses[:, 2] = np.deg2rad(poses[:, 2])
-    return Trajectory(poses=poses)

@@ -14,10 +14,11 @@ import cv2
 import numpy as np
 
 from occsim._types import FloatArray
+from occsim.building import Building
 from occsim.errors import ParameterError
 from occsim.metrics import Scores
 from occsim.priors import ParetoFront, PriorSweep
-from occsim.study.run import StudyCase, StudyDrawing, StudySettings, run_case
+from occsim.study.run import StudyCase, StudySettings, is_reference, run_case
 
 FORMAT = "occsim study case"
 VERSION = 2
@@ -38,7 +39,7 @@ class StudyStep(NamedTuple):
 
 
 def study_cases(
-    drawings: Iterable[StudyDrawing],
+    drawings: Iterable[Building],
     cells: Sequence[int],
     settings: StudySettings | None = None,
     folder: Path | None = None,
@@ -47,7 +48,7 @@ def study_cases(
 
     Parameters
     ----------
-    drawings : iterable of StudyDrawing
+    drawings : iterable of Building
         Of different names.
     cells : sequence of int
         Cell sizes, px.
@@ -84,7 +85,7 @@ def study_cases(
         yield StudyStep(case, done, len(pairs), is_kept)
 
 
-def _require_different_names(drawings: Sequence[StudyDrawing]) -> None:
+def _require_different_names(drawings: Sequence[Building]) -> None:
     names = [drawing.name for drawing in drawings]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
@@ -94,7 +95,7 @@ def _require_different_names(drawings: Sequence[StudyDrawing]) -> None:
 
 
 def _kept_or_run(
-    drawing: StudyDrawing, cell_px: int, settings: StudySettings, folder: Path | None
+    drawing: Building, cell_px: int, settings: StudySettings, folder: Path | None
 ) -> tuple[StudyCase, bool]:
     if folder is None:
         return run_case(drawing, cell_px, settings), False
@@ -109,13 +110,13 @@ def _kept_or_run(
 
 
 def case_settings(
-    drawing: StudyDrawing, cell_px: int, settings: StudySettings
+    drawing: Building, cell_px: int, settings: StudySettings
 ) -> dict[str, Any]:
     """Return everything that a case depends on, as plain values.
 
     Parameters
     ----------
-    drawing : StudyDrawing
+    drawing : Building
         What is mapped.
     cell_px : int
         Cell size, px.
@@ -140,9 +141,9 @@ def case_settings(
         },
         "drawing": {
             "name": drawing.name,
-            "digest": drawing.building.digest,
-            "is_reference": drawing.is_reference,
-            "n_poses": len(drawing.building.valid_trajectory()),
+            "digest": drawing.digest,
+            "is_reference": is_reference(drawing),
+            "n_poses": len(drawing.valid_trajectory()),
         },
         "sensor": _plain(drawing.sensor),
         "cell_px": cell_px,

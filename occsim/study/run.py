@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.building import Building, building_from_drawing
 from occsim.errors import ParameterError, choice
 from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
@@ -73,32 +73,6 @@ class StudySettings:
             value = getattr(self, name)
             if not 0.0 <= value < 1.0:
                 raise ParameterError(f"{name} must lie in [0, 1); got {value!r}")
-
-
-@dataclass(frozen=True, eq=False)
-class StudyDrawing:
-    """A drawing under study.
-
-    Parameters
-    ----------
-    name : str
-        Short name, unique in a study.
-    building : Building
-        Drawing, walls, world and trajectory.
-    sensor : Sensor
-        Its ``behind_hit`` is replaced by that of the study's settings.
-    """
-
-    name: str
-    building: Building
-    sensor: Sensor
-
-    @cached_property
-    def is_reference(self) -> bool:
-        """Whether this is the unchanged sample of that name, not only called so."""
-        if self.name not in sample_names():
-            return False
-        return self.building.digest == _reference(self.name).digest
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,7 +162,7 @@ LOW_SPACE = 0.5
 """Largest p_space that counts as low in `Pattern`."""
 
 
-def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
+def study_drawing(source: str, sensor: Sensor | None = None) -> Building:
     """Return a sample by name, or a drawing from an image file.
 
     Parameters
@@ -201,7 +175,7 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
 
     Returns
     -------
-    StudyDrawing
+    Building
 
     Raises
     ------
@@ -213,7 +187,7 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
         Where there is neither such a sample nor such a file.
     """
     if source in sample_names():
-        return StudyDrawing(source, _reference(source), load_sample(source).sensor)
+        return load_sample(source)
     path = Path(source)
     if not path.is_file():
         raise ParameterError(
@@ -221,24 +195,36 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> StudyDrawing:
             f"got {source!r}"
         )
     sensor = sensor or Sensor()
-    building = building_from_drawing(load_drawing(path, name=path.stem), sensor)
-    return StudyDrawing(path.stem, building, sensor)
+    return building_from_drawing(load_drawing(path, name=path.stem), sensor)
 
 
-@lru_cache(maxsize=8)
-def _reference(name: str) -> Building:
-    return building_from_sample(name)
+def is_reference(building: Building) -> bool:
+    """Return whether this is the unchanged sample of that name, not only called so.
+
+    Parameters
+    ----------
+    building : Building
+        Any.
+
+    Returns
+    -------
+    bool
+    """
+    if building.name not in sample_names():
+        return False
+    return building.digest == load_sample(building.name).digest
 
 
 def run_case(
-    drawing: StudyDrawing, cell_px: int, settings: StudySettings | None = None
+    drawing: Building, cell_px: int, settings: StudySettings | None = None
 ) -> StudyCase:
     """Return the sweep and the exact front of one drawing at one cell size.
 
     Parameters
     ----------
-    drawing : StudyDrawing
-        What is mapped; poses outside the drawing or in walls are left out.
+    drawing : Building
+        What is mapped, with the building's own sensor but the settings' `behind_hit`;
+        poses outside the drawing or in walls are left out.
     cell_px : int
         Cell size, px.
     settings : StudySettings, optional
@@ -256,10 +242,13 @@ def run_case(
         Where no pose stands in free space.
     """
     settings = settings or StudySettings()
-    building = drawing.building
     sensor = replace(drawing.sensor, behind_hit=settings.behind_hit)
     run = MappingRun(
-        replace(building, trajectory=building.valid_trajectory()),
+        replace(
+            drawing,
+            found=drawing.walls_found,
+            trajectory=drawing.valid_trajectory(),
+        ),
         MapSettings(
             cell_px=cell_px,
             sensor=sensor,
@@ -274,7 +263,7 @@ def run_case(
         sweep=run.sweep(rule=rule, region=region),
         front=run.front(rule, region, settings.low, settings.high),
         blank=run.scores(Prior.uninformative(), rule, region),
-        is_reference=drawing.is_reference,
+        is_reference=is_reference(drawing),
     )
 
 

@@ -5,7 +5,7 @@ Arguments with a leading underscore are not part of a key; their digest is.
 
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -18,9 +18,10 @@ from occsim import (
     load_sample,
 )
 from occsim._types import FloatArray
-from occsim.building import Building, building_from_drawing, building_from_sample
+from occsim.building import Building, building_from_drawing
 from occsim.imaging import Drawing
-from occsim.imaging.transform import estimate_tilt
+from occsim.imaging.tilt import estimate_tilt
+from occsim.imaging.transform import Transform
 from occsim.io.images import drawing_png, png
 from occsim.io.replay import MAX_ENTRIES, pack_replay
 from occsim.priors import (
@@ -33,7 +34,7 @@ from occsim.priors import (
     surface_objective,
 )
 from occsim.sensor import most_cells_in_view
-from occsim.study import StudyCase, StudyDrawing, StudySettings, run_case
+from occsim.study import StudyCase, StudySettings, run_case
 from occsim.study.cost import StepCost
 from occsim.study.cost import step_costs as timed_steps
 from occsim.walls import (
@@ -68,7 +69,12 @@ def core() -> Iterator[None]:
 def sample(name: str) -> Building:
     """A reference drawing as a building, its walls detected."""
     with core():
-        return building_from_sample(name)
+        return with_walls(load_sample(name))
+
+
+def with_walls(building: Building) -> Building:
+    """The same building, its walls found now, so that every edit keeps them."""
+    return replace(building, found=building.walls_found)
 
 
 def own_building(drawing: Drawing, sensor: Sensor, working_px: int) -> Building:
@@ -83,7 +89,7 @@ def anonymous(building: Building) -> Building:
     Whatever is cached is shared by all sessions: nothing that a user typed belongs in.
     """
     drawing = replace(building.drawing, name="drawing")
-    return replace(building, drawing=drawing, title="", about="")
+    return replace(building, drawing=drawing, name="", title="", about="")
 
 
 def mapped(building: Building, settings: MapSettings) -> MappingRun:
@@ -214,15 +220,15 @@ def step_costs(of: Run, priors: list[Prior]) -> list[StepCost]:
         return timed_steps(of.evidence, maps, of.settings.rule, 3 if few else 15)
 
 
-def study_case(drawing: StudyDrawing, cell_px: int, of: StudySettings) -> StudyCase:
+def study_case(drawing: Building, cell_px: int, of: StudySettings) -> StudyCase:
     """One drawing at one cell size, swept and searched for its exact front."""
-    key = drawing.name, drawing.building.digest, drawing.sensor
+    key = drawing.name, drawing.digest, drawing.sensor
     return _study_case(key, cell_px, of, drawing)
 
 
 @shared()
 def _study_case(
-    key: tuple[object, ...], cell_px: int, of: StudySettings, _drawing: StudyDrawing
+    key: tuple[object, ...], cell_px: int, of: StudySettings, _drawing: Building
 ) -> StudyCase:
     with core():
         return run_case(_drawing, cell_px, of)
@@ -267,12 +273,10 @@ def _backdrop(digest: str, _drawing: Drawing) -> bytes:
         return drawing_png(_drawing)
 
 
-def reshaped(
-    change: Callable[..., Building], building: Building, *args: float
-) -> Building:
+def reshaped(building: Building, transform: Transform) -> Building:
     """A building with its drawing cropped or turned; kept in the session."""
     with core():
-        return change(building, *args)
+        return with_walls(building.transformed(transform))
 
 
 def tilt(drawing: Drawing) -> float | None:

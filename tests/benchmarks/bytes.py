@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from occsim import collect_evidence, load_sample, sample_names, truth_cells
-from occsim.building import building_from_sample
 from occsim.io.replay import pack_replay
 from occsim.world import wall_cells
 from tests.benchmarks.table import Row
@@ -13,7 +12,8 @@ AIM_KB = 200
 
 def rows() -> Iterator[Row]:
     for name in sample_names():
-        building, sensor = building_from_sample(name), load_sample(name).sensor
+        building = load_sample(name)
+        sensor = building.sensor
         grid = building.world.grid(3)
         log = collect_evidence(building.world, building.trajectory, sensor, grid)
         sent = pack_replay(

@@ -26,11 +26,10 @@ MIN_SHARE = 0.995
 
 def sample_cells(name):
     """Evidence, wall cells and truth of a sample, its walls as detected."""
-    drawing = study_drawing(name)
-    building = drawing.building
+    building = load_sample(name)
     grid = building.world.grid(CELL_PX)
     evidence = collect_evidence(
-        building.world, building.trajectory, load_sample(name).sensor, grid
+        building.world, building.trajectory, building.sensor, grid
     )
     is_wall = wall_cells(building.wall_mask, grid)
     return evidence, is_wall, truth_cells(building.world, grid)

@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 import streamlit as st
 
-from occsim.strokes import encode_strokes, pack_mask
+from occsim.corrections import pack_mask
 from pages._ui.components.board import BoardDocument, BoardMode, drawing_board
 
-HEIGHT_PX, WIDTH_PX = 240, 360
+SIZES = {"small": (240, 360), "large": (1000, 1500)}
 
 
 def first_document(mode):
@@ -31,13 +31,24 @@ def paper():
     return cv2.imencode(".png", image)[1].tobytes()
 
 
+def box_of(mask):
+    """First and last row and column, half-open, that hold anything."""
+    if not mask.any():
+        return None
+    rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return [int(n) for n in (rows[0], rows[-1] + 1, cols[0], cols[-1] + 1)]
+
+
 def report(current):
     mask = current.mask()
+    added, erased = current.corrections.planes
+    commit = state.get("board", {}).get("committed") or {}
     facts = {
-        "first": current.first,
-        "strokes": encode_strokes(current.strokes),
-        "n_strokes": current.first + len(current.strokes),
         "points": [[p.x_px, p.y_px, p.is_waypoint] for p in current.points],
+        "added": int(added.sum()),
+        "erased": int(erased.sum()),
+        "box": box_of(added | erased),
+        "commit_bytes": len(json.dumps(commit)),
         "mask": hashlib.sha1(mask.tobytes()).hexdigest(),
         "rev": current.rev,
     }
@@ -46,6 +57,7 @@ def report(current):
 
 st.set_page_config(layout="wide")
 mode = BoardMode(st.query_params.get("mode", "walls"))
+HEIGHT_PX, WIDTH_PX = SIZES[st.query_params.get("size", "small")]
 state = st.session_state
 if "current" not in state:
     state.current = state.imposed = first_document(mode)
@@ -63,6 +75,4 @@ if is_shown:
     )
     if drawn is not None:
         state.current = drawn
-        if drawn.should_fold:
-            state.current = state.imposed = drawn.folded()
 report(state.current)

@@ -16,7 +16,6 @@ from occsim import (
     load_sample,
     truth_cells,
 )
-from occsim.building import building_from_sample
 from occsim.metrics import scores_by_reading
 from occsim.prior import prior_from_cells
 from occsim.world import wall_cells
@@ -31,8 +30,8 @@ ROOT = ".player"
 @cache
 def run():
     """The run that the page shows first, by occsim: log, wall cells, truth."""
-    building = building_from_sample("a")
-    sensor = Sensor(range_px=load_sample("a").sensor.range_px, fov_rad=FOV_RAD)
+    building = load_sample("a")
+    sensor = Sensor(range_px=building.sensor.range_px, fov_rad=FOV_RAD)
     grid = building.world.grid(CELL_PX)
     log = collect_evidence(building.world, building.trajectory, sensor, grid)
     is_wall = wall_cells(building.wall_mask, grid)

@@ -2,13 +2,13 @@
 
 import json
 import math
+from dataclasses import replace
 
 import streamlit as st
 
-from occsim import Objective, OccsimError, load_sample, sample_names
+from occsim import Building, Objective, OccsimError, sample_names
 from occsim.study import (
     StudyCase,
-    StudyDrawing,
     StudySettings,
     case_settings,
     fronts_csv,
@@ -49,14 +49,11 @@ def settings() -> StudySettings:
     )
 
 
-def drawings() -> list[StudyDrawing]:
+def drawings() -> list[Building]:
     """The reference drawings with their own sensors, and the student's own if any."""
-    all_of_them = [
-        StudyDrawing(name, compute.sample(name), load_sample(name).sensor)
-        for name in sample_names()
-    ]
+    all_of_them = [compute.sample(name) for name in sample_names()]
     if state.choice() == state.OWN:
-        own = StudyDrawing(OWN_NAME, state.building(), state.settings().sensor)
+        own = replace(state.building(), name=OWN_NAME, sensor=state.settings().sensor)
         all_of_them.append(own)
     return all_of_them
 

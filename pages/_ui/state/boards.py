@@ -86,8 +86,8 @@ def board_document(
     """What a board starts from; the same object until it must change from outside.
 
     It must where the parts of the building that it shows are other objects than the
-    board's own edits left, where it comes back to the screen (Streamlit forgets the
-    state of what was not drawn in the last run), and where strokes are to be folded.
+    board's own edits left, and where it comes back to the screen (Streamlit forgets the
+    state of what was not drawn in the last run).
     """
     boards = st.session_state.setdefault("boards", {})
     held = boards.get(key)
@@ -96,8 +96,6 @@ def board_document(
         document = replace(make(), rev=rev)
     elif key not in st.session_state:
         document = replace(held.current, rev=rev)
-    elif held.current.should_fold:
-        document = held.current.folded()
     else:
         return held.imposed
     boards[key] = Held(document, document, source)

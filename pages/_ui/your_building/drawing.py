@@ -5,7 +5,7 @@ from functools import partial
 
 import streamlit as st
 
-from occsim.building import cropped, straightened, turned
+from occsim.imaging.transform import Transform
 from pages._ui import compute, state, uploads
 from pages._ui.components.board import BoardMode, BoardPoint
 from pages._ui.your_building import drawn, lengths
@@ -58,16 +58,16 @@ def _tilt() -> None:
     )
 
 
-def _reshape(change: object, *args: object) -> None:
-    state.set_own(compute.reshaped(change, state.building(), *args))
+def _reshape(transform: Transform) -> None:
+    state.set_own(compute.reshaped(state.building(), transform))
 
 
 def _turn(quarters: int) -> None:
-    _reshape(turned, quarters)
+    _reshape(Transform.quarter_turns(_shape(), quarters))
 
 
 def _straighten(tilt_rad: float) -> None:
-    _reshape(straightened, tilt_rad)
+    _reshape(Transform.straighten(_shape(), tilt_rad))
 
 
 def _crop(corners: tuple[BoardPoint, ...]) -> None:
@@ -78,4 +78,8 @@ def _crop(corners: tuple[BoardPoint, ...]) -> None:
             (corner.y_px for corner in corners),
         )
     )
-    _reshape(cropped, x0, y0, x1 - x0, y1 - y0)
+    _reshape(Transform.crop(_shape(), x0, y0, x1 - x0, y1 - y0))
+
+
+def _shape() -> tuple[int, int]:
+    return state.building().drawing.shape

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from occsim.building import CorrectedMask
-from occsim.strokes import pack_mask
+from occsim import Corrections
+from occsim.corrections import pack_mask
 from pages._ui import compute, state
 from pages._ui.components.board import (
     BoardDocument,
@@ -58,24 +58,43 @@ def document(**contents: object) -> BoardDocument:
     return BoardDocument(height_px=height, width_px=width, **contents)
 
 
-def mask_board(key: str, layer: str) -> None:
-    """Show the board that corrects a mask of the building, ``walls`` or ``truth``."""
+def walls_board(key: str) -> None:
+    """Show the board that corrects the walls found."""
 
-    def mask() -> CorrectedMask:
-        return getattr(state.building(), layer)
+    def source(corrections: Corrections) -> kept.Source:
+        return state.building().walls_found, corrections
+
+    def shown() -> kept.Source:
+        return source(state.building().corrections)
+
+    def make() -> BoardDocument:
+        found, corrections = shown()
+        return document(base=pack_mask(found), overlay=corrections)
 
     def take(drawn: BoardDocument) -> None:
-        before = mask()
-        # The board sends no strokes that are in its base already.
-        after = before.with_strokes(before.strokes[: drawn.first] + drawn.strokes)
-        with kept.taking(key, drawn, (before,), (after,)):
-            state.edit(lambda: state.edit_building(**{layer: after}), tag=key)
+        after = drawn.corrections
+        with kept.taking(key, drawn, shown(), source(after)):
+            state.edit(lambda: state.edit_building(corrections=after), tag=key)
+
+    board(key, BoardMode.WALLS, shown, make, take)
+
+
+def truth_board(key: str) -> None:
+    """Show the board on which the ground truth is drawn."""
+
+    def shown() -> kept.Source:
+        return (state.building().truth,)
+
+    def take(drawn: BoardDocument) -> None:
+        after = drawn.mask()
+        with kept.taking(key, drawn, shown(), (after,)):
+            state.edit(lambda: state.edit_building(truth=after), tag=key)
 
     board(
         key,
         BoardMode.WALLS,
-        lambda: (mask(),),
-        lambda: document(base=pack_mask(mask().base), strokes=mask().strokes),
+        shown,
+        lambda: document(base=pack_mask(state.building().truth)),
         take,
     )
 

@@ -4,11 +4,12 @@ from typing import Any
 
 import streamlit as st
 
-from occsim.building import CorrectedMask, empty_mask
+from occsim import Corrections
+from occsim.corrections import unpack_mask
 from occsim.io.images import class_png, mask_png
 from occsim.walls import MaskError
 from pages._ui import compute, palette, state, uploads, words
-from pages._ui.your_building import drawn, lengths
+from pages._ui.your_building import drawn
 
 PICTURE_PX = drawn.HEIGHT_PX - 80
 """Height of a picture with its caption in a frame as high as the board."""
@@ -25,20 +26,20 @@ def correct() -> None:
     """Correct the wall mask with brush, line, rectangle and eraser."""
     left, right = st.columns([4, 1])
     with left:
-        drawn.mask_board("board_walls", "walls")
+        drawn.walls_board("board_walls")
     with right:
         st.markdown(
             "**See** what the detection took for wall, tinted. **Try** to erase what "
             "is none and to close what is broken. **Why:** the prior is made of this "
             "mask, and of nothing else."
         )
-        strokes = state.building().walls.strokes
-        st.caption(lengths.count(len(strokes), "correction"))
+        building = state.building()
+        st.caption(f"{building.n_added:,} px added, {building.n_erased:,} px erased")
         st.button(
             "Discard all corrections",
             on_click=state.edit,
             args=(_discard,),
-            disabled=not strokes,
+            disabled=building.corrections.is_empty,
             width="stretch",
         )
         agreement()
@@ -48,11 +49,12 @@ def correct() -> None:
                 "cancels the prior, and at p_wall = 0.2 one clear reading outweighs it "
                 "with *prior once* as well. Where it never looks, the error stays."
             )
-        _download(state.building().wall_mask, "walls.png", "Wall mask (PNG)")
+        _download(building.wall_mask, "walls.png", "Wall mask (PNG)")
 
 
 def _discard() -> None:
-    state.edit_building(walls=CorrectedMask(state.building().walls.base))
+    nothing = Corrections.none(state.building().drawing.shape)
+    state.edit_building(corrections=nothing)
 
 
 def agreement() -> None:
@@ -84,7 +86,7 @@ def truth() -> None:
     has_truth = state.building().truth is not None
     with left:
         if has_truth:
-            drawn.mask_board("board_truth", "truth")
+            drawn.truth_board("board_truth")
         else:
             _world_picture()
     with right:
@@ -103,8 +105,7 @@ def truth() -> None:
             )
         uploads.truth("workshop_truth")
         if has_truth:
-            mask: Any = state.building().truth
-            _download(mask.mask, "ground_truth.png", "Ground truth (PNG)")
+            _download(state.building().truth, "ground_truth.png", "Ground truth (PNG)")
 
 
 def _world_picture() -> None:
@@ -135,11 +136,11 @@ def _words_of_truth(has_truth: bool) -> None:
 
 
 def _from_walls() -> None:
-    state.edit_building(truth=CorrectedMask(state.building().wall_mask))
+    state.edit_building(truth=state.building().wall_mask)
 
 
 def _from_nothing() -> None:
-    state.edit_building(truth=empty_mask(state.building().drawing))
+    state.edit_building(truth=unpack_mask(b"", state.building().drawing.shape))
 
 
 def _without() -> None:

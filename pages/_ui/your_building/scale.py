@@ -1,6 +1,7 @@
 """Section 2: two clicks across a door give the sensor's range and the scale."""
 
 import math
+from dataclasses import replace
 from functools import partial
 
 import streamlit as st
@@ -41,11 +42,15 @@ def _take(ends: tuple[BoardPoint, ...]) -> None:
     door_px = math.dist(*((end.x_px, end.y_px) for end in ends)) if ends else 0.0
     if not door_px:
         return
-    scale = {"door_px": door_px, "metres_per_px": _width_m() / door_px}
+    scale = {
+        "door_px": door_px,
+        "metres_per_px": _width_m() / door_px,
+        "sensor": replace(state.building().sensor, range_px=door_px),
+    }
     state.edit(partial(_measured, scale), tag=KEY)
 
 
-def _measured(scale: dict[str, float]) -> None:
+def _measured(scale: dict[str, object]) -> None:
     state.edit_building(**scale)
     state.set_range_to_door()
 

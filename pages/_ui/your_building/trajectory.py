@@ -6,8 +6,8 @@ import streamlit as st
 
 from occsim import HeadingMode, Trajectory, TrajectoryFormat, dump_trajectory
 from occsim.building import random_trajectory, sketched_trajectory
+from occsim.corrections import pack_mask
 from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
-from occsim.strokes import pack_mask
 from occsim.tour import coverage_tour, default_tour
 from pages._ui import state, uploads
 from pages._ui.components.board import BoardDocument, BoardMode, BoardPoint
@@ -96,8 +96,10 @@ def _board() -> None:
 
 
 def _shown() -> kept.Source:
+    """What the world is made of, and the sketch."""
     building = state.building()
-    return building.truth or building.walls, building.sketch
+    found, corrections = building.walls_found, building.corrections
+    return found, corrections, building.truth, building.sketch
 
 
 def _sketched() -> BoardDocument:
@@ -112,8 +114,8 @@ def _sketched() -> BoardDocument:
 
 def _take_sketch(document: BoardDocument) -> None:
     sketch = tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points)
-    mask, before = _shown()
-    with kept.taking(KEY, document, (mask, before), (mask, sketch)):
+    before = _shown()
+    with kept.taking(KEY, document, before, (*before[:-1], sketch)):
         state.edit(partial(_follow, sketch), tag=KEY)
 
 

@@ -5,7 +5,6 @@ from functools import partial
 
 import streamlit as st
 
-from occsim.building import CorrectedMask
 from occsim.walls import STAGE_NOTES, Slider, WallParams
 from pages._ui import compute, state
 from pages._ui.state import boards as kept
@@ -77,11 +76,8 @@ def _all_stages() -> None:
 
 
 def _detect(params: WallParams) -> None:
-    building = state.building()
-    found = compute.detection(building.drawing, params)
-    state.edit_building(
-        walls=CorrectedMask(found.mask, building.walls.strokes), wall_params=params
-    )
+    found = compute.detection(state.building().drawing, params)
+    state.edit_building(found=found.mask, wall_params=params)
 
 
 def _change(field: str, value: float | bool) -> None:

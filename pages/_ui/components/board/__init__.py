@@ -1,13 +1,14 @@
 """The drawing board: walls, a trajectory, a length or a crop, by hand on a drawing.
 
-One Streamlit component. Python sends the drawing, the base mask and the edits once; the
-board edits by itself, shows every stroke at once and tells Python when the hand lets
-go. What a stroke covers is defined in `occsim.strokes` and drawn by the same rule in
-``raster.js``. The scripts beside this file are plain functions, joined here in a fixed
-order into the one module that Streamlit wants.
+One Streamlit component. Python sends the drawing, the walls and the corrections over
+them once; the board edits the corrections by itself and tells Python when the hand lets
+go: which tiles differ from what was sent, pixel by pixel. The scripts beside this file
+are plain functions, joined here in a fixed order into the one module that Streamlit
+wants.
 """
 
-import json
+import base64
+import binascii
 import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -15,18 +16,10 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from occsim import ParameterError
-from occsim.strokes import (
-    LATTICE,
-    Stroke,
-    apply_strokes,
-    decode_strokes,
-    encode_strokes,
-    pack_mask,
-    unpack_mask,
-)
+from occsim import Corrections, ParameterError
+from occsim.corrections import TILE_PX, unpack_mask
 from pages._ui import palette
-from pages._ui.components import component, keep_state
+from pages._ui.components import component, keep_state, packed
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
@@ -43,16 +36,6 @@ SCRIPTS = (
 )
 COMPONENT = "drawing_board"
 HEIGHT_PX = 560
-FOLD_ABOVE = 256
-"""Strokes that are sent back with each commit, before the oldest join the base mask."""
-FOLD_POINTS = 20_000
-"""Points of strokes, likewise."""
-KEEP = 128
-"""Newest strokes that stay strokes then: so many can still be undone."""
-KEEP_POINTS = 10_000
-"""Most points of those; long scribbles leave room for fewer strokes."""
-MAX_STROKE_POINTS = 2_000
-"""The board simplifies a longer stroke further."""
 MAX_PATH_POINTS = 5_000
 """No sketch has as many; they are resampled anyway."""
 
@@ -61,7 +44,7 @@ class BoardMode(Enum):
     """What is drawn on the board."""
 
     WALLS = "walls"
-    """Strokes on a wall mask."""
+    """Corrections over a wall mask."""
     TRAJECTORY = "trajectory"
     """A polyline, by waypoints or free hand."""
     MEASURE = "measure"
@@ -77,7 +60,7 @@ class BoardPoint:
     Parameters
     ----------
     x_px, y_px : float
-        In the image frame, whole quarters of a pixel, inside the drawing.
+        In the image frame, inside the drawing.
     is_waypoint : bool
         Placed by a click; otherwise one of the many of a free-hand line.
     """
@@ -96,12 +79,10 @@ class BoardDocument:
     height_px, width_px : int
         Size of the drawing.
     base : bytes
-        Wall mask that the strokes correct, or that is shown under a path, packed by
-        `occsim.strokes.pack_mask`; empty for none.
-    first : int
-        Number of oldest strokes that were laid into the base under this `rev`.
-    strokes : tuple of Stroke
-        The others, oldest first.
+        Wall mask that is corrected, or that is shown under a path, packed by
+        `occsim.corrections.pack_mask`; empty for none.
+    overlay : Corrections or None
+        What was corrected in it; None for nothing.
     points : tuple of BoardPoint
         What the other modes draw.
     rev : int
@@ -113,8 +94,7 @@ class BoardDocument:
     height_px: int
     width_px: int
     base: bytes = b""
-    first: int = 0
-    strokes: tuple[Stroke, ...] = ()
+    overlay: Corrections | None = None
     points: tuple[BoardPoint, ...] = ()
     rev: int = 0
     token: str = field(default_factory=lambda: secrets.token_hex(6))
@@ -125,32 +105,13 @@ class BoardDocument:
         return self.height_px, self.width_px
 
     @property
-    def should_fold(self) -> bool:
-        """Whether so much has gathered that the oldest strokes should be folded."""
-        return len(self.strokes) > FOLD_ABOVE or _n_points(self.strokes) > FOLD_POINTS
+    def corrections(self) -> Corrections:
+        """What was corrected, if only nothing."""
+        return self.overlay or Corrections.none(self.shape)
 
     def mask(self) -> Any:
-        """Return the wall mask with all strokes, bool of shape (H, W)."""
-        return apply_strokes(unpack_mask(self.base, self.shape), self.strokes)
-
-    def folded(self) -> "BoardDocument":
-        """Return the same document, all but the newest strokes laid into its base.
-
-        To be imposed under the same `rev`: the board keeps what was drawn meanwhile.
-        """
-        new = self.strokes[-KEEP:]
-        while _n_points(new) > KEEP_POINTS:
-            new = new[1:]
-        if len(new) == len(self.strokes):
-            return self
-        old = self.strokes[: len(self.strokes) - len(new)]
-        base = apply_strokes(unpack_mask(self.base, self.shape), old)
-        first = self.first + len(old)
-        return replace(self, base=pack_mask(base), first=first, strokes=new)
-
-
-def _n_points(strokes: tuple[Stroke, ...]) -> int:
-    return sum(len(stroke.points) for stroke in strokes)
+        """Return the corrected wall mask, bool of shape (H, W)."""
+        return self.corrections.apply(unpack_mask(self.base, self.shape))
 
 
 COLOURS = {
@@ -186,15 +147,13 @@ def drawing_board(
     * where contents change from outside (another drawing, a project opened, a reset):
       ``replace(current, ..., rev=rev + 1)``;
     * where the page was left and entered again, the same way, so that the board starts
-      from what is current;
-    * where ``current.should_fold``: ``current.folded()``, with the same rev.
+      from what is current; where it remembers the same contents, its undo goes on.
 
-    Commits carry all edits since the document was imposed. They may be merged on their
-    way, one that echoes an older rev is answered with None, and one that was under way
-    while strokes were folded is understood. A run can be cut short by the next one, so
-    the surest place to take a commit is `on_commit`, which runs first: there
-    ``decode_commit(value of the key, field "committed"; imposed, mode)`` gives the same
-    as this call.
+    Commits carry all edits since the document was imposed. They may be merged or lost
+    on their way: the last one says everything. One that echoes an older rev is answered
+    with None. A run can be cut short by the next one, so the surest place to take a
+    commit is `on_commit`, which runs first: there ``decode_commit(value of the key,
+    field "committed"; imposed, mode)`` gives the same as this call.
 
     Parameters
     ----------
@@ -242,11 +201,7 @@ def board_data(
     metres_per_px: float | None = None,
     height_px: int = HEIGHT_PX,
 ) -> bytes:
-    """Return what the browser gets.
-
-    Four bytes with the length of the header (little-endian), the header (JSON, UTF-8),
-    the drawing as it was given, the packed base mask to the end.
-    """
+    """Return what the browser gets: header, drawing, walls, corrections."""
     header = {
         "key": key,
         "mode": mode.value,
@@ -257,21 +212,12 @@ def board_data(
         "heightPx": height_px,
         "metresPerPx": metres_per_px,
         "hasMask": bool(document.base) or mode is BoardMode.WALLS,
-        "first": document.first,
-        "strokes": encode_strokes(document.strokes),
-        "points": [_encoded(point) for point in document.points],
-        "limits": {"points": MAX_PATH_POINTS, "strokePoints": MAX_STROKE_POINTS},
-        "imageBytes": len(backdrop),
+        "points": [[p.x_px, p.y_px, int(p.is_waypoint)] for p in document.points],
+        "maxPoints": MAX_PATH_POINTS,
+        "tilePx": TILE_PX,
         "colours": COLOURS,
     }
-    encoded = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
-    length = len(encoded).to_bytes(4, "little")
-    return length + encoded + backdrop + document.base
-
-
-def _encoded(point: BoardPoint) -> list[int]:
-    x, y = round(point.x_px * LATTICE), round(point.y_px * LATTICE)
-    return [x, y, int(point.is_waypoint)]
+    return packed(header, backdrop, document.base, document.corrections.packed)
 
 
 def decode_commit(
@@ -288,23 +234,24 @@ def decode_commit(
         return None
     try:
         if mode is BoardMode.WALLS:
-            return _with_strokes(document, commit)
+            tiles = _decoded_bytes(commit.get("tiles"), document)
+            return replace(document, overlay=document.corrections.with_tiles(tiles))
         points = _decoded_points(commit.get("points"), document, mode)
         return replace(document, points=points)
     except ParameterError:
         return None
 
 
-def _with_strokes(
-    document: BoardDocument, commit: Mapping[str, object]
-) -> BoardDocument:
-    first = commit.get("first")
-    # A board never counts further than Python has told it to.
-    if type(first) is not int or not 0 <= first <= document.first:
-        raise ParameterError(f"first must lie in [0, {document.first}]; got {first!r}")
-    strokes = decode_strokes(commit.get("strokes"))
-    # Those that were folded while this commit was under way are in the base already.
-    return replace(document, strokes=strokes[document.first - first :])
+def _decoded_bytes(encoded: object, document: BoardDocument) -> bytes:
+    # Two bits a pixel in whole tiles are a third of a character in base64; half a
+    # character leaves room for what packing adds where it gains nothing.
+    area = (document.height_px + TILE_PX) * (document.width_px + TILE_PX)
+    if not isinstance(encoded, str) or len(encoded) > area // 2:
+        raise ParameterError("tiles must be text, no longer than the drawing allows")
+    try:
+        return base64.b64decode(encoded, validate=True)
+    except (binascii.Error, ValueError):  # ValueError: characters beyond ASCII
+        raise ParameterError("tiles must be base64; they are not") from None
 
 
 def _decoded_points(
@@ -319,10 +266,14 @@ def _decoded_points(
 
 
 def _decoded(point: object, document: BoardDocument) -> BoardPoint:
-    if not isinstance(point, list) or [type(n) for n in point] != [int, int, int]:
-        raise ParameterError(f"a point must be three whole numbers; got {point!r:.40}")
+    if not isinstance(point, list) or len(point) != 3:
+        raise ParameterError("a point must be a list of three numbers")
     x, y, kind = point
-    bounds = document.width_px * LATTICE, document.height_px * LATTICE
-    if not (0 <= x <= bounds[0] and 0 <= y <= bounds[1] and kind in (0, 1)):
+    if type(x) not in (int, float) or type(y) not in (int, float):
+        raise ParameterError("the place of a point must be two numbers")
+    # Also false for NaN, which compares with nothing.
+    if not (0 <= x <= document.width_px and 0 <= y <= document.height_px):
         raise ParameterError("a point must lie inside the drawing")
-    return BoardPoint(x_px=x / LATTICE, y_px=y / LATTICE, is_waypoint=bool(kind))
+    if type(kind) is not int or kind not in (0, 1):
+        raise ParameterError("a point must be a waypoint, 1, or not, 0")
+    return BoardPoint(x_px=float(x), y_px=float(y), is_waypoint=bool(kind))

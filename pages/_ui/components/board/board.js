@@ -4,7 +4,7 @@ const boards = new WeakMap(); // by the element that Streamlit gives us
 const memory = new Map(); // by key: what a board held when it left the screen
 
 export default function (component) {
-  const { data, key, parentElement, setStateValue } = component;
+  const { data, parentElement, setStateValue } = component;
   let b = boards.get(parentElement);
   if (!b || !b.root.isConnected) {
     if (b) close(b);
@@ -30,7 +30,7 @@ function opened(parentElement) {
     ctx: canvas.getContext("2d"),
     camera: newCamera(),
     size: { width: 1, height: 1 },
-    tint: document.createElement("canvas"),
+    tint: offscreen(1, 1),
     widths: {},
     opacity: 0.6,
     straight: false,
@@ -41,6 +41,7 @@ function opened(parentElement) {
     keyboard: null,
     hover: null,
     draft: null,
+    sending: 0,
     selected: -1,
     partsInWalls: 0,
     loading: 0,
@@ -56,8 +57,8 @@ function opened(parentElement) {
   root.boardState = () => ({
     camera: { ...b.camera },
     points: b.doc.points,
-    strokes: b.doc.first + b.doc.strokes.length,
-    mask: b.grid ? Array.from(b.grid.pixels).join("") : "",
+    steps: b.doc.past.length,
+    mask: b.mask.pixels.join(""),
   });
   return b;
 }
@@ -74,35 +75,34 @@ function stopTimers(b) {
   cancelAnimationFrame(b.frame);
 }
 
-// --- What Python sends: length of the header, header (JSON), image, mask. ---
+// --- What Python sends: header, picture, base mask, corrections. ---
 
 async function receive(b, data) {
   const turn = ++b.loading;
-  const bytes = new Uint8Array(data);
-  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
-  const image = bytes.subarray(4 + length, 4 + length + header.imageBytes);
-  const packed = bytes.subarray(4 + length + header.imageBytes);
+  const [header, picture, base, overlay] = readPacked(data);
   b.root.style.height = `${header.heightPx}px`;
-  const [bitmap, base] = await Promise.all([decodedImage(image), decodedMask(packed, header)]);
+  const size = header.width * header.height;
+  const [bitmap, walls, planes] = await Promise.all([
+    pictureOf(picture),
+    decodedFlags(base, size),
+    decodedFlags(overlay, 2 * size),
+  ]);
   // Later data may have overtaken these while they were decoded.
   if (turn !== b.loading || b.closed) return;
-  take(b, header, bitmap, base);
+  take(b, header, bitmap, walls, overlayOf(planes, size));
 }
 
-const decodedImage = (bytes) => createImageBitmap(new Blob([bytes]));
-
-async function decodedMask(packed, header) {
-  if (!packed.length) return new Uint8Array(header.width * header.height);
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const bits = new Uint8Array(await new Response(stream).arrayBuffer());
-  return unpackedBits(bits, header.width * header.height);
+async function decodedFlags(bytes, count) {
+  return bytes.length ? unpackBits(await inflated(bytes), count) : new Uint8Array(count);
 }
 
-function take(b, header, bitmap, base) {
-  // The same document again (its strokes folded) can wait until the hand lets go.
+const overlayOf = (planes, size) =>
+  planes.subarray(0, size).map((isAdded, i) => (isAdded ? ADDED : planes[size + i] ? ERASED : 0));
+
+function take(b, header, bitmap, base, overlay) {
+  // The same document again (the scale has changed) can wait until the hand lets go.
   if (b.gesture && b.doc.identity === identityOf(header)) {
-    b.waiting = () => take(b, header, bitmap, base);
+    b.waiting = () => take(b, header, bitmap, base, overlay);
     return;
   }
   b.waiting = null;
@@ -111,25 +111,29 @@ function take(b, header, bitmap, base) {
   const isNewSize = b.size.width !== header.width || b.size.height !== header.height;
   Object.assign(b, { header, bitmap, colours: header.colours, hasMask: header.hasMask });
   b.size = { width: header.width, height: header.height };
-  b.tintWord = wordOf(b.colours.wallMask);
-  b.doc = documentFor(b, header, base);
-  b.grid = { ...b.size, pixels: new Uint8Array(base.length) };
+  b.tintWord = pixelOf(rgbOf(b.colours.wallMask));
+  b.doc = documentFor(b, header, base, overlay);
+  b.overlay = { ...b.size, pixels: b.doc.overlay };
+  b.mask = { ...b.size, pixels: new Uint8Array(base.length) };
   Object.assign(b.tint, b.size);
   if (isNewMode) buildToolbar(b);
   if (isNewMode || isNewSize) recallView(b, isNewSize);
   measure(b);
-  redrawMask(b);
+  refreshMask(b, wholeOf(b.size));
   b.root.dataset.ready = "1";
   showState(b);
 }
 
 // Edits survive wherever Python imposes the document that they were made on.
-function documentFor(b, header, base) {
-  const known = [b.doc, memory.get(header.key)?.doc].find((doc) => doc && doc.identity === identityOf(header));
-  if (known) return advance(known, header, base);
+function documentFor(b, header, base, overlay) {
+  const known = [b.doc, memory.get(header.key)?.doc].filter(Boolean);
+  const same = known.find((doc) => doc.identity === identityOf(header));
+  if (same) return same;
   b.draft = null;
   b.selected = -1;
-  return newDocument(header, base);
+  const doc = newDocument(header, base, overlay);
+  const last = known.find((other) => holdsTheSame(other, doc));
+  return last ? { ...doc, past: last.past, future: last.future } : doc;
 }
 
 function remember(b) {
@@ -152,7 +156,7 @@ function recallView(b, isNewSize) {
 function measure(b) {
   const { clientWidth, clientHeight } = b.canvas;
   if (!clientWidth || !b.doc) return;
-  const ratio = window.devicePixelRatio || 1;
+  const ratio = pixelRatio();
   b.canvas.width = Math.round(clientWidth * ratio);
   b.canvas.height = Math.round(clientHeight * ratio);
   resize(b.camera, b.size, clientWidth, clientHeight);
@@ -161,13 +165,11 @@ function measure(b) {
 }
 
 function readTheme(b) {
-  const style = getComputedStyle(b.root);
-  const of = (name) => style.getPropertyValue(name).trim();
-  b.theme = { ink: style.color, paper: of("--paper"), line: of("--rim"), font: style.fontFamily };
+  b.theme = themeOf(b.root);
   requestPaint(b);
 }
 
 function fail(b, error) {
   b.root.dataset.ready = "1";
-  b.root.querySelector("[data-part=hint]").textContent = `The board could not be drawn: ${error.message}`;
+  partOf(b.root, "hint").textContent = `The board could not be drawn: ${error.message}`;
 }

@@ -22,14 +22,14 @@ function fit(camera, size) {
 
 function keptInView(camera, size) {
   const bounded = (offset, length, view) =>
-    clamped(offset, Math.min(KEEP_IN_VIEW_PX - length, view - length), Math.max(view - KEEP_IN_VIEW_PX, 0));
+    clamp(offset, Math.min(KEEP_IN_VIEW_PX - length, view - length), Math.max(view - KEEP_IN_VIEW_PX, 0));
   camera.x = bounded(camera.x, size.width * camera.scale, camera.width);
   camera.y = bounded(camera.y, size.height * camera.scale, camera.height);
 }
 
 function zoomAt(camera, size, [sx, sy], factor) {
   const low = Math.min(fitScale(camera, size) / 2, 1);
-  const scale = clamped(camera.scale * factor, low, MAX_SCALE);
+  const scale = clamp(camera.scale * factor, low, MAX_SCALE);
   const ratio = scale / camera.scale;
   camera.x = sx - (sx - camera.x) * ratio;
   camera.y = sy - (sy - camera.y) * ratio;
@@ -60,7 +60,7 @@ const toScreen = (camera, [x, y]) => [x * camera.scale + camera.x, y * camera.sc
 // Brings a point of the drawing into sight; for the keyboard's cursor.
 function reveal(camera, size, point) {
   const [sx, sy] = toScreen(camera, point);
-  const shift = (s, length) => clamped(s, 24, Math.max(length - 24, 24)) - s;
+  const shift = (s, length) => clamp(s, 24, Math.max(length - 24, 24)) - s;
   const [dx, dy] = [shift(sx, camera.width), shift(sy, camera.height)];
   if (dx || dy) pan(camera, size, dx, dy);
 }

@@ -1,22 +1,24 @@
-// What is edited: strokes over a base mask, or a list of points; undo, redo, commit.
+// What is edited: corrections over a base mask, or a list of points; undo, redo, commit.
 //
 // Python owns the document and imposes it with a `rev`; every commit echoes that rev and
-// carries all edits since it was imposed, so commits may be dropped or merged on the way
-// and the last one still says everything. Strokes are counted from the first one ever
-// drawn under this rev: when Python has laid the oldest into its base mask it imposes the
-// same rev with a higher `first`, and what was drawn meanwhile stays.
+// says all that differs from what was imposed, so commits may be lost or merged on their
+// way and the last one still says everything.
 
-const UNDO_DEPTH = 200;
+const UNDO_DEPTH = 200; // steps of a path
+const UNDO_RUNS = 1e6; // of all strokes together, 12 bytes each
 const COMMIT_GAP_MS = 120;
 
-function newDocument(header, base) {
+function newDocument(header, base, overlay) {
+  const side = header.tilePx;
   return {
     identity: identityOf(header),
-    first: header.first,
+    mode: header.mode,
     base,
-    strokes: header.strokes.map(decodeStroke),
-    points: header.points.map(([x, y, kind]) => [x / LATTICE, y / LATTICE, kind]),
-    undone: [],
+    imposed: overlay,
+    overlay: overlay.slice(),
+    columns: Math.ceil(header.width / side),
+    touched: new Uint8Array(Math.ceil(header.width / side) * Math.ceil(header.height / side)),
+    points: header.points,
     past: [],
     future: [],
   };
@@ -24,29 +26,118 @@ function newDocument(header, base) {
 
 const identityOf = (header) => [header.mode, header.token, header.rev, header.width, header.height].join("|");
 
-// The same document again, its oldest strokes now part of the base.
-function advance(doc, header, base) {
-  if (header.first > doc.first) {
-    doc.strokes.splice(0, header.first - doc.first);
-    doc.first = header.first;
-    doc.base = base;
-  }
-  return doc;
+// Whether a board that comes back is sent what it held: then its undo goes on.
+function holdsTheSame(doc, other) {
+  return (
+    doc.mode === other.mode &&
+    doc.columns === other.columns &&
+    areEqual(doc.base, other.base) &&
+    areEqual(doc.overlay, other.overlay) &&
+    JSON.stringify(doc.points) === JSON.stringify(other.points)
+  );
 }
 
-function addStroke(b, stroke) {
-  b.doc.strokes.push(stroke);
-  b.doc.undone = [];
+function areEqual(a, b) {
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+  return a.length === b.length;
+}
+
+// --- Corrections: a step is a patch, runs of pixels with what they were before. ---
+
+// Takes over what a stroke changed since `before`, within a box.
+function addStroke(b, before, box) {
+  const patch = patchOf(b.doc.overlay, before, box, b.size.width);
+  if (!patch) return;
+  b.doc.past.push(patch);
+  b.doc.future = [];
+  let runs = 0;
+  const kept = b.doc.past.findLastIndex((step) => (runs += step.runs.length / 3) > UNDO_RUNS);
+  b.doc.past.splice(0, Math.min(kept + 1, b.doc.past.length - 1));
+  touch(b, box);
   commit(b);
 }
 
-function redrawMask(b) {
-  b.grid.pixels.set(b.doc.base);
-  for (const stroke of b.doc.strokes) applyStroke(b.grid, stroke);
-  refreshTint(b, wholeOf(b.grid));
+// {value, runs: [first pixel, number of pixels, value before, ...], box}, or null.
+function patchOf(now, before, box, width) {
+  const runs = [];
+  let value = 0;
+  for (let row = box.y0; row < box.y1; row++) {
+    const end = row * width + box.x1;
+    for (let i = row * width + box.x0; i < end; i++) {
+      if (now[i] === before[i]) continue;
+      const start = i;
+      while (i + 1 < end && now[i + 1] !== before[i + 1] && before[i + 1] === before[start]) i++;
+      runs.push(start, i + 1 - start, before[start]);
+      value = now[start]; // a stroke gives all its pixels one value
+    }
+  }
+  return runs.length ? { value, runs: Int32Array.from(runs), box } : null;
 }
 
-const wholeOf = (grid) => ({ x0: 0, y0: 0, x1: grid.width, y1: grid.height });
+function applyPatch(b, patch, isUndone) {
+  for (let i = 0; i < patch.runs.length; i += 3) {
+    const [first, length, before] = patch.runs.subarray(i, i + 3);
+    b.doc.overlay.fill(isUndone ? before : patch.value, first, first + length);
+  }
+  touch(b, patch.box);
+  refreshMask(b, patch.box);
+}
+
+// Notes the tiles in which something may differ from what was imposed.
+function touch(b, box) {
+  const side = b.header.tilePx;
+  for (let row = Math.floor(box.y0 / side); row * side < box.y1; row++) {
+    const first = row * b.doc.columns;
+    b.doc.touched.fill(1, first + Math.floor(box.x0 / side), first + Math.ceil(box.x1 / side));
+  }
+}
+
+// One bit for each tile, whether it differs from what was imposed; then, for each that
+// does, its added and its erased pixels: as occsim.Corrections.with_tiles reads them.
+function changedTiles(b) {
+  const { touched } = b.doc;
+  const changed = [];
+  touched.forEach((flag, tile) => flag && differs(b.doc, tileOf(b, tile)) && changed.push(tile));
+  const head = Math.ceil(touched.length / 8);
+  const size = (2 * b.header.tilePx ** 2) / 8;
+  const bytes = new Uint8Array(head + size * changed.length);
+  changed.forEach((tile, k) => {
+    setBit(bytes, tile);
+    packTile(b.doc.overlay, tileOf(b, tile), bytes.subarray(head + size * k, head + size * (k + 1)));
+  });
+  return bytes;
+}
+
+const setBit = (bytes, i) => (bytes[i >> 3] |= 128 >> (i & 7));
+
+// The part of a tile that lies in the drawing: rows of `width` pixels from `first` on.
+function tileOf(b, tile) {
+  const side = b.header.tilePx;
+  const [x, y] = [(tile % b.doc.columns) * side, Math.floor(tile / b.doc.columns) * side];
+  const [width, height] = [Math.min(side, b.size.width - x), Math.min(side, b.size.height - y)];
+  return { first: y * b.size.width + x, stride: b.size.width, width, height, side };
+}
+
+function differs({ overlay, imposed }, tile) {
+  for (let row = 0; row < tile.height; row++) {
+    const first = tile.first + row * tile.stride;
+    for (let i = first; i < first + tile.width; i++) if (overlay[i] !== imposed[i]) return true;
+  }
+  return false;
+}
+
+function packTile(overlay, tile, bytes) {
+  for (let row = 0; row < tile.height; row++) {
+    const first = tile.first + row * tile.stride;
+    for (let col = 0; col < tile.width; col++) {
+      const value = overlay[first + col];
+      const plane = value === ERASED ? tile.side : 0;
+      if (value) setBit(bytes, (plane + row) * tile.side + col);
+    }
+  }
+}
+
+// --- Points: a step is the list as it was before. ---
 
 // Replaces the points; what was there before can be had back.
 function setPoints(b, points, before = b.doc.points) {
@@ -58,36 +149,34 @@ function setPoints(b, points, before = b.doc.points) {
   commit(b);
 }
 
-const canUndo = (b) => (b.header.mode === "walls" ? b.doc.strokes : b.doc.past).length > 0;
-const canRedo = (b) => (b.header.mode === "walls" ? b.doc.undone : b.doc.future).length > 0;
+function exchangePoints(b, points) {
+  const before = b.doc.points;
+  b.doc.points = points;
+  b.selected = -1;
+  return before;
+}
+
+// --- Both ---
 
 function undo(b) {
   stopGesture(b);
-  if (!canUndo(b)) return;
-  if (b.header.mode === "walls") {
-    b.doc.undone.push(b.doc.strokes.pop());
-    redrawMask(b);
-  } else {
-    b.doc.future.push(b.doc.points);
-    b.doc.points = b.doc.past.pop();
-    b.selected = -1;
-  }
+  if (!b.doc.past.length) return;
+  b.doc.future.push(stepped(b, b.doc.past.pop(), true));
   commit(b);
 }
 
 function redo(b) {
   stopGesture(b);
-  if (!canRedo(b)) return;
-  if (b.header.mode === "walls") {
-    const stroke = b.doc.undone.pop();
-    b.doc.strokes.push(stroke);
-    refreshTint(b, applyStroke(b.grid, stroke));
-  } else {
-    b.doc.past.push(b.doc.points);
-    b.doc.points = b.doc.future.pop();
-    b.selected = -1;
-  }
+  if (!b.doc.future.length) return;
+  b.doc.past.push(stepped(b, b.doc.future.pop(), false));
   commit(b);
+}
+
+// Goes one step and returns the step that leads back.
+function stepped(b, step, isUndone) {
+  if (b.header.mode !== "walls") return exchangePoints(b, step);
+  applyPatch(b, step, isUndone);
+  return step;
 }
 
 // At once, but not more often than Streamlit can follow: of a quick series the last
@@ -105,10 +194,14 @@ function flush(b) {
   clearTimeout(b.commitTimer);
   b.commitTimer = 0;
   b.lastCommit = performance.now();
+  send(b).catch((error) => fail(b, error));
+}
+
+async function send(b) {
+  const turn = ++b.sending;
   const { rev, token, mode } = b.header;
   const edits =
-    mode === "walls"
-      ? { first: b.doc.first, strokes: b.doc.strokes.map((stroke) => stroke.code) }
-      : { points: b.doc.points.map(([x, y, kind]) => [Math.round(x * LATTICE), Math.round(y * LATTICE), kind]) };
-  b.setStateValue("committed", { rev, token, ...edits });
+    mode === "walls" ? { tiles: base64(await deflated(changedTiles(b))) } : { points: b.doc.points };
+  // One that was begun later says more.
+  if (turn === b.sending) b.setStateValue("committed", { rev, token, ...edits });
 }

@@ -76,8 +76,8 @@ function label(b, text, [sx, sy]) {
   const { ctx, camera } = b;
   ctx.font = `600 13px ${b.theme.font}`;
   const width = ctx.measureText(text).width + 14;
-  const x = clamped(sx - width / 2, 4, Math.max(camera.width - width - 4, 4));
-  const y = clamped(sy - 12, 4, Math.max(camera.height - 28, 4));
+  const x = clamp(sx - width / 2, 4, Math.max(camera.width - width - 4, 4));
+  const y = clamp(sy - 12, 4, Math.max(camera.height - 28, 4));
   ctx.beginPath();
   ctx.roundRect(x, y, width, 24, 5);
   ctx.fillStyle = b.theme.paper;
@@ -107,7 +107,7 @@ function paintPath(b) {
   const colour = b.colours.path;
   trace(b, points, colour);
   paintArrows(b, points, colour);
-  const inWalls = b.hasMask ? partsInside(b.grid, points) : [];
+  const inWalls = b.hasMask ? partsInside(b.mask, points) : [];
   for (const part of inWalls) trace(b, part, b.colours.falseWall, 3.5, [4, 3]);
   b.partsInWalls = inWalls.length;
   points.forEach((p, i) => {

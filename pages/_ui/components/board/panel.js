@@ -2,7 +2,7 @@
 
 function buildToolbar(b) {
   const mode = b.header.mode;
-  const part = (name) => b.root.querySelector(`[data-part=${name}]`);
+  const part = (name) => partOf(b.root, name);
   part("tools").replaceChildren(...MODES[mode].map((name) => toolButton(b, name)));
   const isWalls = mode === "walls";
   const hasAngles = MODES[mode].some((name) => ANGLED.has(name));
@@ -62,21 +62,21 @@ function chooseTool(b, name) {
   const straight = b.root.querySelector("[data-act=straight]");
   if (straight) straight.disabled = !ANGLED.has(name);
   const width = b.widths[name];
-  const row = b.root.querySelector("[data-part=width-row]");
+  const row = partOf(b.root, "width-row");
   // Kept in its place, so that nothing moves when a tool without a width is chosen.
   row.dataset.off = width ? "0" : "1";
   row.querySelector("input").disabled = !width;
   if (width) setWidth(b, width);
-  b.root.querySelector("[data-part=hint]").textContent = `${TOOLS[name].label}. ${TOOLS[name].hint}`;
+  partOf(b.root, "hint").textContent = `${TOOLS[name].label}. ${TOOLS[name].hint}`;
   showCursor(b);
   showState(b);
 }
 
 function setWidth(b, width) {
   if (!b.widths[b.tool]) return;
-  b.widths[b.tool] = clamped(Math.round(width), 1, MAX_WIDTH_PX);
-  b.root.querySelector("[data-part=width]").value = String(b.widths[b.tool]);
-  b.root.querySelector("[data-part=width-value]").textContent = `${b.widths[b.tool]} px`;
+  b.widths[b.tool] = clamp(Math.round(width), 1, MAX_WIDTH_PX);
+  partOf(b.root, "width").value = String(b.widths[b.tool]);
+  partOf(b.root, "width-value").textContent = `${b.widths[b.tool]} px`;
   requestPaint(b);
 }
 
@@ -96,14 +96,14 @@ function showCursor(b) {
 // Buttons that can do nothing now say so; numbers are brought up to date.
 function showState(b) {
   if (!b.doc) return;
-  const off = { undo: !canUndo(b), redo: !canRedo(b), remove: !b.doc.points.length };
+  const off = { undo: !b.doc.past.length, redo: !b.doc.future.length, remove: !b.doc.points.length };
   for (const [name, isOff] of Object.entries(off)) {
     const element = b.root.querySelector(`[data-act=${name}]`);
     if (element) element.disabled = isOff;
   }
   b.root.querySelector("[data-act=straight]")?.setAttribute("aria-pressed", String(b.straight));
-  b.root.querySelector("[data-part=opacity-row]").hidden = !b.hasMask;
-  b.root.dataset.strokes = String(b.doc.first + b.doc.strokes.length);
+  partOf(b.root, "opacity-row").hidden = !b.hasMask;
+  b.root.dataset.steps = String(b.doc.past.length);
   b.root.dataset.points = String(b.doc.points.length);
   showPosition(b);
 }
@@ -113,7 +113,7 @@ function showPosition(b) {
   const at = b.keyboard ?? b.hover;
   const facts = [...summary(b), `${Math.round(b.camera.scale * 100)} %`];
   if (at) facts.unshift(`x ${Math.floor(at[0])}, y ${Math.floor(at[1])} px`);
-  b.root.querySelector("[data-part=facts]").textContent = facts.join("  ·  ");
+  partOf(b.root, "facts").textContent = facts.join("  ·  ");
 }
 
 function summary(b) {
@@ -122,7 +122,7 @@ function summary(b) {
   const points = b.doc.points;
   if (mode !== "trajectory" || !points.length) return [];
   const facts = [`${points.length} ${points.length === 1 ? "point" : "points"}, ${lengthText(b, lengthOf(points))}`];
-  const parts = b.hasMask ? partsInside(b.grid, points).length : 0;
+  const parts = b.hasMask ? partsInside(b.mask, points).length : 0;
   if (parts) facts.push(`${parts} ${parts === 1 ? "part" : "parts"} in walls`);
   return facts;
 }

@@ -9,11 +9,9 @@ const MIN_CROP_PX = 8;
 const reachOf = (event) => (event.pointerType === "touch" ? { point: 22, segment: 14 } : { point: 10, segment: 6 });
 const screenDistance = (b, p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]) * b.camera.scale;
 
-// Inside the drawing: its last quarter of a pixel is the largest coordinate there is.
-const kept = (b, [x, y]) => [
-  snapped(clamped(x, 0, b.size.width - 1 / LATTICE)),
-  snapped(clamped(y, 0, b.size.height - 1 / LATTICE)),
-];
+// A point of a path: whole quarters of a pixel, inside the drawing.
+const kept = (b, p) =>
+  [b.size.width, b.size.height].map((size, axis) => Math.round(clamp(p[axis], 0, size - 0.25) * 4) / 4);
 
 function pointAt(b, p, event) {
   let [best, nearest] = [-1, reachOf(event).point];
@@ -42,7 +40,7 @@ function waypoints(b, p, event) {
     const segment = segmentAt(b, p, event);
     if (segment > 0) return dragged(b, inserted(b, segment, [...kept(b, p), WAYPOINT]), before);
   }
-  if (before.length >= b.header.limits.points) return null;
+  if (before.length >= b.header.maxPoints) return null;
   const last = before[before.length - 1];
   const at = last && isStraight(b, event) ? turnedTo45(last, p) : p;
   return dragged(b, inserted(b, before.length, [...kept(b, at), WAYPOINT]), before);
@@ -75,12 +73,12 @@ function removePoint(b, index) {
   setPoints(b, b.doc.points.toSpliced(index, 1));
 }
 
-function freehand(b, p, event) {
+function freehand(b, p) {
   const before = b.doc.points;
   const raw = [p];
   b.selected = -1;
   const show = (points, kind) => {
-    b.doc.points = [...before, ...points.map((q) => [...kept(b, q), kind])].slice(0, b.header.limits.points);
+    b.doc.points = [...before, ...points.map((q) => [...kept(b, q), kind])];
   };
   return {
     move(q) {
@@ -91,7 +89,8 @@ function freehand(b, p, event) {
     end() {
       const isClick = raw.length === 1;
       const tolerance = Math.max(0.5, FREEHAND_CSS_PX / b.camera.scale);
-      show(atMost(b.header.limits.strokePoints, raw, tolerance), isClick ? WAYPOINT : FREEHAND);
+      const room = b.header.maxPoints - before.length;
+      show(room < 2 ? [] : atMost(room, raw, tolerance), isClick ? WAYPOINT : FREEHAND);
       setPoints(b, b.doc.points, before);
     },
     cancel: () => (b.doc.points = before),
@@ -127,8 +126,8 @@ const cropBox = (points) => ({
 
 const cropPoints = (b, p, q) =>
   [p, q].map(([x, y]) => [
-    clamped(Math.round(x), 0, b.size.width),
-    clamped(Math.round(y), 0, b.size.height),
+    clamp(Math.round(x), 0, b.size.width),
+    clamp(Math.round(y), 0, b.size.height),
     WAYPOINT,
   ]);
 
@@ -142,8 +141,8 @@ function frame(b, p, event) {
   const fixed = corner >= 0 ? corners[(corner + 2) % 4] : p;
   const shifted = (q) => {
     const [w, h] = [box.x1 - box.x0, box.y1 - box.y0];
-    const x = clamped(box.x0 + q[0] - p[0], 0, b.size.width - w);
-    const y = clamped(box.y0 + q[1] - p[1], 0, b.size.height - h);
+    const x = clamp(box.x0 + q[0] - p[0], 0, b.size.width - w);
+    const y = clamp(box.y0 + q[1] - p[1], 0, b.size.height - h);
     return cropPoints(b, [x, y], [x + w, y + h]);
   };
   return {

@@ -175,7 +175,7 @@ function wheel(b, event) {
   event.preventDefault();
   const lines = event.deltaMode === 1 ? 16 : 1;
   const rate = event.ctrlKey ? WHEEL_RATE * 5 : WHEEL_RATE;
-  zoomAt(b.camera, b.size, screenPoint(b, event), Math.exp(-clamped(event.deltaY * lines, -300, 300) * rate));
+  zoomAt(b.camera, b.size, screenPoint(b, event), Math.exp(-clamp(event.deltaY * lines, -300, 300) * rate));
   b.hover = imagePoint(b, event);
   showState(b);
   requestPaint(b);
@@ -240,7 +240,7 @@ function deleteSelected(b) {
 function moveKeyboard(b, [dx, dy], event) {
   const step = (event.shiftKey ? 10 : 1) * Math.max(1, Math.round(1 / b.camera.scale));
   const from = b.keyboard ?? b.hover ?? [b.size.width / 2, b.size.height / 2];
-  const snap = (value, size) => clamped(Math.floor(value) + 0.5, 0.5, size - 0.5);
+  const snap = (value, size) => clamp(Math.floor(value) + 0.5, 0.5, size - 0.5);
   b.keyboard = [snap(from[0] + dx * step, b.size.width), snap(from[1] + dy * step, b.size.height)];
   reveal(b.camera, b.size, b.keyboard);
   // Shift is the larger step here, not the straight angle.

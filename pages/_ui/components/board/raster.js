@@ -1,16 +1,19 @@
-// Which pixels a stroke covers: the same rule, in the same order of arithmetic, as
-// occsim.strokes, so that the mask on the screen is the mask that Python gets.
+// Which pixels a stroke covers, and the geometry of lines.
+//
+// A pixel belongs to a line if its test point lies within half the line's width, or if
+// one of the line's points lies in it, so that the thinnest dot is not lost. The test
+// point is a little right of and below the centre: a line of width 2 along the pixels
+// covers two rows of them, not one or three.
 
-const LATTICE = 4; // coordinates and widths are whole quarters of a pixel
-const TEST_POINT = 0.5 + 1 / 64; // where in a pixel it is asked whether it is covered
+const TEST_POINT = 0.5 + 1 / 64;
+const ADDED = 1; // values of a pixel of the corrections; 0 is neither
+const ERASED = 2;
 const ERASING = new Set(["eraser", "clear"]);
 const BOXES = new Set(["rectangle", "outline", "clear"]);
 
-const snapped = (value) => Math.round(value * LATTICE) / LATTICE;
-const clamped = (value, low, high) => Math.min(Math.max(value, low), high);
-
 const noBox = () => ({ x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity });
 const isEmptyBox = (box) => box.x1 <= box.x0 || box.y1 <= box.y0;
+const wholeOf = (grid) => ({ x0: 0, y0: 0, x1: grid.width, y1: grid.height });
 
 function growBox(box, x0, y0, x1, y1) {
   box.x0 = Math.min(box.x0, x0);
@@ -27,7 +30,7 @@ const unionBox = (a, b) => {
 
 // A grid is {width, height, pixels: Uint8Array}. Returns the box that may have changed.
 function applyStroke(grid, stroke) {
-  const value = ERASING.has(stroke.kind) ? 0 : 1;
+  const value = ERASING.has(stroke.kind) ? ERASED : ADDED;
   const dirty = noBox();
   if (BOXES.has(stroke.kind)) {
     for (const box of boxesOf(stroke)) fillBox(grid, box, value, dirty);
@@ -56,7 +59,7 @@ function boxesOf(stroke) {
 }
 
 function fillBox(grid, box, value, dirty) {
-  const edge = (at, size) => clamped(Math.ceil(at - TEST_POINT), 0, size);
+  const edge = (at, size) => clamp(Math.ceil(at - TEST_POINT), 0, size);
   const [c0, c1] = [edge(box[0], grid.width), edge(box[2], grid.width)];
   const [r0, r1] = [edge(box[1], grid.height), edge(box[3], grid.height)];
   if (c1 <= c0 || r1 <= r0) return;
@@ -75,15 +78,15 @@ function fillCapsule(grid, a, b, radius, value, dirty) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const squared = dx * dx + dy * dy;
   const reach = radius * Math.sqrt(squared);
-  const row0 = clamped(Math.ceil(Math.min(a[1], b[1]) - radius - TEST_POINT), 0, grid.height);
-  const row1 = clamped(Math.floor(Math.max(a[1], b[1]) + radius - TEST_POINT) + 1, 0, grid.height);
+  const row0 = clamp(Math.ceil(Math.min(a[1], b[1]) - radius - TEST_POINT), 0, grid.height);
+  const row1 = clamp(Math.floor(Math.max(a[1], b[1]) + radius - TEST_POINT) + 1, 0, grid.height);
   for (let row = row0; row < row1; row++) {
     const y = row + TEST_POINT - a[1];
     const [left, right] = rowInterval(dx, dy, y, radius, squared, reach);
     if (left > right) continue;
     const x = a[0] - TEST_POINT;
-    const c0 = clamped(Math.ceil(x + left), 0, grid.width);
-    const c1 = clamped(Math.floor(x + right) + 1, 0, grid.width);
+    const c0 = clamp(Math.ceil(x + left), 0, grid.width);
+    const c1 = clamp(Math.floor(x + right) + 1, 0, grid.width);
     if (c1 <= c0) continue;
     grid.pixels.fill(value, row * grid.width + c0, row * grid.width + c1);
     growBox(dirty, c0, row, c1, row + 1);
@@ -144,43 +147,8 @@ function atMost(limit, points, tolerance) {
 function distanceToSegment(p, a, b) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const squared = dx * dx + dy * dy;
-  const share = squared ? clamped(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / squared, 0, 1) : 0;
+  const share = squared ? clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / squared, 0, 1) : 0;
   return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
-}
-
-// [kind, width, x, y, dx, dy, ...] in quarters of a pixel, as occsim.strokes writes it.
-function encodeStroke(stroke) {
-  const row = [stroke.kind, Math.round(stroke.width * LATTICE)];
-  let [lastX, lastY] = [0, 0];
-  for (const point of stroke.points) {
-    const [x, y] = point.map((value) => Math.round(value * LATTICE));
-    row.push(x - lastX, y - lastY);
-    [lastX, lastY] = [x, y];
-  }
-  return row;
-}
-
-function decodeStroke(row) {
-  const points = [];
-  let [x, y] = [0, 0];
-  for (let i = 2; i < row.length; i += 2) {
-    x += row[i];
-    y += row[i + 1];
-    points.push([x / LATTICE, y / LATTICE]);
-  }
-  return { kind: row[0], width: row[1] / LATTICE, points, code: row };
-}
-
-function madeStroke(kind, width, points) {
-  const stroke = { kind, width: snapped(width), points: points.map((p) => p.map(snapped)) };
-  stroke.code = encodeStroke(stroke);
-  return stroke;
-}
-
-function unpackedBits(bytes, size) {
-  const pixels = new Uint8Array(size);
-  for (let i = 0; i < size; i++) pixels[i] = (bytes[i >> 3] >> (7 - (i & 7))) & 1;
-  return pixels;
 }
 
 // Parts of a polyline that run over marked pixels: [[x, y], [x, y]] pairs.

@@ -1,77 +1,53 @@
-// The tools that change the wall mask. A tool starts a gesture: {move, end, cancel}.
+// The tools that change the corrections. A tool starts a gesture: {move, end, cancel}.
 
 const NEAR_PX = 0.25; // closer samples of the pointer say nothing new
-const SMOOTH_CSS_PX = 0.35; // what simplifying may move a line, as seen on the screen
 
 function freeLine(kind) {
   return (b, start) => {
-    const before = b.grid.pixels.slice();
+    const before = b.doc.overlay.slice();
     const width = b.widths[kind];
-    const raw = [start];
+    let last = start;
     let dirty = noBox();
     const add = (points) => {
-      const box = applyStroke(b.grid, { kind, width, points });
+      const box = applyStroke(b.overlay, { kind, width, points });
       dirty = unionBox(dirty, box);
-      refreshTint(b, box);
+      refreshMask(b, box);
     };
     add([start]);
     return {
       move(point) {
-        const last = raw[raw.length - 1];
         if (Math.hypot(point[0] - last[0], point[1] - last[1]) < NEAR_PX) return;
-        raw.push(point);
         add([last, point]);
+        last = point;
       },
-      end() {
-        restore(b, before, dirty);
-        const tolerance = clamped(SMOOTH_CSS_PX / b.camera.scale, 0.25, 1);
-        const stroke = madeStroke(kind, width, atMost(b.header.limits.strokePoints, raw, tolerance));
-        refreshTint(b, unionBox(dirty, applyStroke(b.grid, stroke)));
-        addStroke(b, stroke);
-      },
-      cancel() {
-        restore(b, before, dirty);
-        refreshTint(b, dirty);
-      },
+      end: () => addStroke(b, before, dirty),
+      cancel: () => restore(b, before, dirty),
     };
   };
 }
 
 function twoPoints(kind) {
   return (b, start) => {
-    const before = b.grid.pixels.slice();
+    const before = b.doc.overlay.slice();
     const width = b.widths[kind] ?? 1;
-    let stroke = null;
+    let end = start;
     let dirty = noBox();
-    const show = (point) => {
-      restore(b, before, dirty);
-      stroke = madeStroke(kind, width, [start, point]);
-      const box = applyStroke(b.grid, stroke);
-      refreshTint(b, unionBox(dirty, box));
-      dirty = box;
-    };
-    const cancel = () => {
-      restore(b, before, dirty);
-      refreshTint(b, dirty);
-    };
-    b.anchor = start;
+    const cancel = () => restore(b, before, dirty);
     return {
       move(point, event) {
-        show(kind === "line" && isStraight(b, event) ? turnedTo45(start, point) : point);
+        cancel();
+        end = kind === "line" && isStraight(b, event) ? turnedTo45(start, point) : point;
+        dirty = applyStroke(b.overlay, { kind, width, points: [start, end] });
+        refreshMask(b, dirty);
       },
       end() {
-        b.anchor = null;
-        const [p, q] = stroke ? stroke.points : [start, start];
         // A click without a drag says nothing about where the other end would be.
-        if (Math.hypot(q[0] - p[0], q[1] - p[1]) * b.camera.scale < 3) return cancel();
-        addStroke(b, stroke);
+        if (Math.hypot(end[0] - start[0], end[1] - start[1]) * b.camera.scale < 3) return cancel();
+        addStroke(b, before, dirty);
       },
-      cancel() {
-        b.anchor = null;
-        cancel();
-      },
+      cancel,
       get extent() {
-        return stroke && stroke.points;
+        return isEmptyBox(dirty) ? null : [start, end];
       },
     };
   };
@@ -79,31 +55,30 @@ function twoPoints(kind) {
 
 function restore(b, before, box) {
   if (isEmptyBox(box)) return;
-  const { width, pixels } = b.grid;
   for (let row = box.y0; row < box.y1; row++) {
-    const [from, to] = [row * width + box.x0, row * width + box.x1];
-    pixels.set(before.subarray(from, to), from);
+    const [from, to] = [row * b.size.width + box.x0, row * b.size.width + box.x1];
+    b.doc.overlay.set(before.subarray(from, to), from);
   }
+  refreshMask(b, box);
 }
 
-// The mask as the canvas shows it: a transparent image with colour on wall pixels.
-function refreshTint(b, box) {
+// The corrected mask, and the canvas that shows it: colour on wall pixels.
+function refreshMask(b, box) {
   if (isEmptyBox(box)) return;
+  const { base, overlay } = b.doc;
   const [width, height] = [box.x1 - box.x0, box.y1 - box.y0];
   const image = new ImageData(width, height);
   const words = new Uint32Array(image.data.buffer);
   for (let row = 0, out = 0; row < height; row++) {
-    let from = (box.y0 + row) * b.grid.width + box.x0;
-    for (let col = 0; col < width; col++) words[out++] = b.grid.pixels[from++] ? b.tintWord : 0;
+    let i = (box.y0 + row) * b.size.width + box.x0;
+    for (let col = 0; col < width; col++, i++) {
+      const isWall = overlay[i] ? overlay[i] === ADDED : base[i];
+      b.mask.pixels[i] = isWall ? 1 : 0;
+      words[out++] = isWall ? b.tintWord : 0;
+    }
   }
   b.tint.getContext("2d").putImageData(image, box.x0, box.y0);
   requestPaint(b);
-}
-
-// "#rrggbb" as the bytes R, G, B, 255 read as one number in the machine's own order.
-function wordOf(colour) {
-  const bytes = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
-  return new Uint32Array(new Uint8Array([...bytes, 255]).buffer)[0];
 }
 
 const isStraight = (b, event) => b.straight !== Boolean(event && event.shiftKey);

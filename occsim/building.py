@@ -1,0 +1,385 @@
+"""A building: the drawing with everything that is needed to map it."""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from occsim._types import BoolArray
+from occsim.corrections import Corrections
+from occsim.errors import DrawingError, ParameterError
+from occsim.imaging import MAX_SIDE_PX, Drawing
+from occsim.imaging.transform import Transform
+from occsim.sensor import Sensor
+from occsim.tour import default_tour, random_poses
+from occsim.trajectory import (
+    HeadingMode,
+    Trajectory,
+    inside_walls,
+    outside,
+    resample,
+    without,
+)
+from occsim.walls import WallParams, detect_walls
+from occsim.world import World, world_from_image
+
+DOOR_WIDTH_M = 0.9
+"""Clear width of a usual door, m: the scale of a drawing that states none."""
+
+Sketch = tuple[tuple[float, float, bool], ...]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Building:
+    """A drawing and all that is needed to map it.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What the architect gives, shape (H, W).
+    trajectory : Trajectory
+        Where the readings are taken.
+    found : ndarray of bool, shape (H, W), optional
+        Walls found in the drawing. By default they are looked for with `wall_params`
+        when they are first needed.
+    corrections : Corrections, optional
+        What was corrected in them by hand; none by default.
+    truth : ndarray of bool, shape (H, W), optional
+        Ground truth, in register with the drawing: structure only, doors open. Without
+        one the corrected walls serve as the world.
+    wall_params : WallParams
+        Settings of the wall detection.
+    sensor : Sensor
+        The one proposed for this building: its range is the length of a door.
+    tour : Trajectory, optional
+        The tour that was planned for the building, if one was. As long as it is the
+        trajectory, `transformed` plans another.
+    sketch : tuple of (float, float, bool)
+        Sketch of a trajectory: x, y of its corners, px, and whether the corner is a
+        waypoint set by hand or one of the many of a free line. May be empty.
+    door_px : float, optional
+        Length of a door leaf, px, where it is known.
+    metres_per_px : float, optional
+        Scale of the drawing, where it is known.
+    name : str
+        Short name; the drawing's by default. Samples have ``"a"`` to ``"e"``.
+    title : str
+        What the building is.
+    about : str
+        What the drawing shows, a sentence or two.
+
+    Raises
+    ------
+    DrawingError
+        Where a mask is not one of bool or has another size than the drawing.
+    ParameterError
+        Where a length is not above 0 and finite.
+
+    Notes
+    -----
+    What is computed is kept with the object, and lost by `dataclasses.replace`: who
+    edits a building step by step gives it the walls found.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> load_sample("a")
+    Building('a': 460 x 350 px, 420 poses)
+    """
+
+    drawing: Drawing
+    trajectory: Trajectory
+    found: BoolArray | None = None
+    # Given an empty overlay below, which needs the drawing's size.
+    corrections: Corrections = None  # type: ignore[assignment]
+    truth: BoolArray | None = None
+    wall_params: WallParams = WallParams()
+    sensor: Sensor = Sensor()
+    tour: Trajectory | None = None
+    sketch: Sketch = ()
+    door_px: float | None = None
+    metres_per_px: float | None = None
+    name: str = ""
+    title: str = "Your building"
+    about: str = ""
+
+    def __post_init__(self) -> None:
+        shape = self.drawing.shape
+        if self.corrections is None:
+            object.__setattr__(self, "corrections", Corrections.none(shape))
+        if not self.name:
+            object.__setattr__(self, "name", self.drawing.name)
+        _check_mask("wall mask", self.found, shape)
+        _check_mask("ground truth", self.truth, shape)
+        _check_size("corrections", self.corrections.shape, shape)
+        for what in ("door_px", "metres_per_px"):
+            value = getattr(self, what)
+            if value is not None and not 0.0 < value < np.inf:
+                raise ParameterError(f"{what} must be above 0 and finite; got {value}")
+
+    def __repr__(self) -> str:
+        height, width = self.drawing.shape
+        size = f"{width} x {height} px, {len(self.trajectory)} poses"
+        return f"Building({self.name!r}: {size})"
+
+    @cached_property
+    def walls_found(self) -> BoolArray:
+        """Walls found in the drawing, ndarray of bool of shape (H, W)."""
+        if self.found is not None:
+            return self.found
+        return detect_walls(self.drawing, self.wall_params).mask
+
+    @cached_property
+    def wall_mask(self) -> BoolArray:
+        """Walls of the prior: those found, corrected; bool of shape (H, W)."""
+        return self.corrections.apply(self.walls_found)
+
+    @cached_property
+    def world(self) -> World:
+        """What the sensor sees: the ground truth, else the wall mask."""
+        return World(occupied=self.wall_mask if self.truth is None else self.truth)
+
+    @cached_property
+    def digest(self) -> str:
+        """Identifies everything that a result can depend on."""
+        content = hashlib.sha256(self.drawing.digest.encode())
+        for part in (self.wall_mask, self.world.occupied, self.trajectory.poses):
+            content.update(repr((part.shape, part.dtype.str)).encode())
+            content.update(np.ascontiguousarray(part).data)
+        return content.hexdigest()
+
+    @property
+    def n_added(self) -> int:
+        """Number of wall pixels that were not found but added by hand."""
+        return int((self.wall_mask & ~self.walls_found).sum())
+
+    @property
+    def n_erased(self) -> int:
+        """Number of wall pixels that were found and erased by hand."""
+        return int((self.walls_found & ~self.wall_mask).sum())
+
+    @cached_property
+    def is_outside(self) -> BoolArray:
+        """Which poses lie outside the drawing, ndarray of bool of shape (S,)."""
+        return outside(self.trajectory, self.world)
+
+    @cached_property
+    def is_inside_walls(self) -> BoolArray:
+        """Which poses stand in a wall of the world, ndarray of bool of shape (S,)."""
+        return inside_walls(self.trajectory, self.world)
+
+    @property
+    def n_outside(self) -> int:
+        """Number of poses outside the drawing."""
+        return int(self.is_outside.sum())
+
+    @property
+    def n_inside_walls(self) -> int:
+        """Number of poses that stand in a wall of the world."""
+        return int(self.is_inside_walls.sum())
+
+    def valid_trajectory(self) -> Trajectory:
+        """Return the trajectory without poses outside the drawing or in walls.
+
+        Raises
+        ------
+        TrajectoryError
+            Where no pose would remain.
+        """
+        return without(self.trajectory, self.is_outside | self.is_inside_walls)
+
+    def transformed(self, transform: Transform) -> "Building":
+        """Return the building on its drawing, moved; its walls are found anew.
+
+        Parameters
+        ----------
+        transform : Transform
+            Of the drawing's shape.
+
+        Returns
+        -------
+        Building
+            All that was made on the drawing moves along; poses may come to lie
+            outside. A tour that was planned is planned anew.
+
+        Raises
+        ------
+        DrawingError
+            Where the drawing has another shape.
+        TrajectoryError
+            Where a tour is to be planned and no free space is left.
+        """
+        scale = transform.scale
+        corners = transform.points([(x, y) for x, y, _ in self.sketch]).tolist()
+        moved = replace(
+            self,
+            drawing=transform.drawing(self.drawing),
+            found=None,
+            corrections=self.corrections.transformed(transform),
+            truth=None if self.truth is None else transform.mask(self.truth),
+            trajectory=Trajectory(poses=transform.poses(self.trajectory.poses)),
+            tour=None,
+            sensor=replace(self.sensor, range_px=self.sensor.range_px * scale),
+            sketch=tuple(
+                (x, y, is_waypoint)
+                for (x, y), (*_, is_waypoint) in zip(corners, self.sketch, strict=True)
+            ),
+            door_px=self.door_px and self.door_px * scale,
+            metres_per_px=self.metres_per_px and self.metres_per_px / scale,
+        )
+        if self.trajectory is not self.tour:
+            return moved
+        tour = default_tour(moved.world, moved.sensor)
+        return replace(moved, found=moved.walls_found, trajectory=tour, tour=tour)
+
+
+def _check_mask(what: str, mask: BoolArray | None, shape: tuple[int, int]) -> None:
+    if mask is None:
+        return
+    if mask.dtype != np.bool_:
+        raise DrawingError(f"the {what} must be an array of bool; got {mask.dtype}")
+    _check_size(what, mask.shape, shape)
+
+
+def _check_size(what: str, got: tuple[int, ...], shape: tuple[int, int]) -> None:
+    if got != shape:
+        raise DrawingError(
+            f"the {what} must have the drawing's size, {shape[1]} x {shape[0]} px; "
+            f"got {' x '.join(str(side) for side in reversed(got))} px"
+        )
+
+
+def building_from_drawing(
+    drawing: Drawing,
+    sensor: Sensor,
+    params: WallParams | None = None,
+    *,
+    working_px: int = MAX_SIDE_PX,
+) -> Building:
+    """Return a building from a drawing alone, ready to be mapped.
+
+    The walls found serve as the world until a ground truth is given, and the
+    trajectory is a default tour of the free space.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What the architect gave.
+    sensor : Sensor
+        The tour is spaced to its range.
+    params : WallParams, optional
+        Settings of the detection; automatic by default.
+    working_px : int, optional
+        Longer side to which a larger drawing is scaled down, px; by default it is not.
+
+    Returns
+    -------
+    Building
+        It says about itself from what size it was scaled down.
+
+    Raises
+    ------
+    TrajectoryError
+        Where the walls leave no free space to drive in.
+    """
+    height, width = drawing.shape
+    drawing = Transform.fit(drawing.shape, working_px).drawing(drawing)
+    is_smaller = drawing.shape != (height, width)
+    params = params or WallParams()
+    found = detect_walls(drawing, params).mask
+    tour = default_tour(World(occupied=found), sensor)
+    return Building(
+        drawing=drawing,
+        found=found,
+        trajectory=tour,
+        tour=tour,
+        wall_params=params,
+        sensor=sensor,
+        title=drawing.name,
+        about=f"Scaled down from {width} × {height} px." if is_smaller else "",
+    )
+
+
+def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:
+    """Return a ground truth from its picture: black is wall, white is free.
+
+    Parameters
+    ----------
+    image : Drawing
+        Of the drawing's size, or of the size that the drawing had before it was scaled
+        down to its working size.
+    shape : tuple of int
+        Height and width of the drawing, px.
+
+    Returns
+    -------
+    ndarray of bool
+        No wall of a larger image is lost. Of the image's own size where that does not
+        fit, to be refused by `Building`.
+    """
+    fit = Transform.fit(image.shape, max(shape))
+    mask = world_from_image(image).occupied
+    return fit.mask(mask) if fit.new_shape == shape else mask
+
+
+def random_trajectory(world: World, n: int, seed: int) -> Trajectory:
+    """Return random poses in free space, the same ones for the same seed.
+
+    Parameters
+    ----------
+    world : World
+        What the robot stands in.
+    n : int
+        Poses, 1 or more.
+    seed : int
+        Decides, 0 or more.
+
+    Returns
+    -------
+    Trajectory
+        With the four cardinal headings.
+
+    Raises
+    ------
+    TrajectoryError
+        Where there is no free space.
+    """
+    return random_poses(world, n, rng=np.random.default_rng(seed))
+
+
+def sketched_trajectory(
+    sketch: Sequence[tuple[float, float, bool]],
+    step_px: float,
+    heading_mode: HeadingMode = HeadingMode.ALONG,
+    turn: bool = False,
+) -> Trajectory:
+    """Return the readings along a sketch.
+
+    Parameters
+    ----------
+    sketch : sequence of (float, float, bool)
+        As in `Building`; at least one corner.
+    step_px : float
+        Between readings, px.
+    heading_mode : HeadingMode, default HeadingMode.ALONG
+        Where the robot looks.
+    turn : bool, default False
+        Whether it turns on the spot at waypoints set by hand.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    TrajectoryError, ParameterError
+        As `occsim.resample` does.
+    """
+    return resample(
+        [(x, y) for x, y, _ in sketch],
+        step_px,
+        heading_mode=heading_mode,
+        turn_at_waypoints=[turn and is_waypoint for *_, is_waypoint in sketch],
+    )

@@ -1,0 +1,21 @@
+"""Project files: a building and the settings beside it, in one zip archive.
+
+The archive holds images as PNG (``drawing``, ``walls_found``, ``corrections``, and
+``truth`` where there is one), ``trajectory.csv`` and ``project.json`` with everything
+else: sketch, scale, sensor, the settings of wall detection, the settings of the
+application as text, versions. In ``corrections.png`` black is erased, white added and
+grey neither; ``walls.png``, the two together, is for people. Version 1 had no
+``corrections.png``: there the corrections are what tells ``walls.png`` from
+``walls_found.png``.
+
+An archive is hostile until checked: only these names are read, never as paths, none
+beyond its limit of bytes and all together not beyond another; images must have the
+drawing's size before they are decoded; every value of the JSON has to be of its type
+and in its bounds. Walls are not detected anew, so a project stays what it was when the
+detection improves.
+"""
+
+from occsim.io.project.archive import ProjectError
+from occsim.io.project.file import Project, dump_project, load_project
+
+__all__ = ["Project", "ProjectError", "dump_project", "load_project"]

@@ -1,0 +1,202 @@
+"""The values in the JSON of a project, each checked for its type and its bounds."""
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from enum import Enum
+from typing import Any
+
+from occsim.building import Sketch
+from occsim.io.project.archive import JSON_NAME, ProjectError, shown
+from occsim.sensor import BehindHit, Sensor
+from occsim.walls import WallParams
+
+FORMAT = "occsim-project"
+VERSION = 2
+"""Of the layout that the package describes."""
+
+VERSIONS = (1, VERSION)
+"""Those that are read."""
+
+MAX_TEXT = 2000
+"""Longest title or setting, characters."""
+
+MAX_SETTINGS = 200
+MAX_SKETCH = 5000
+MAX_METRES_PER_PX = 100.0
+MAX_LENGTH_PX = 100_000.0
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Told:
+    """What stands in the JSON, checked.
+
+    ``parts`` are arguments of `occsim.Building`; ``is_planned`` says whether the
+    trajectory is the building's tour.
+    """
+
+    version: int
+    drawing_name: str
+    is_planned: bool
+    parts: dict[str, Any]
+    settings: Mapping[str, str]
+
+
+def read_values(content: bytes) -> Told:
+    """Return what stands in the JSON.
+
+    Raises
+    ------
+    OccsimError
+        Where it is no JSON, or a value is of another type or out of its bounds.
+    """
+    told = _json(content)
+    _check_version(told)
+    door_px = _length(told, "door_px", MAX_LENGTH_PX)
+    return Told(
+        version=told["version"],
+        drawing_name=_text(told, "name"),
+        is_planned=told.get("is_planned") is True,
+        parts={
+            "wall_params": _wall_params(told.get("wall_params")),
+            "sensor": _sensor(told.get("sensor"), door_px),
+            "sketch": _sketch(told.get("sketch")),
+            "door_px": door_px,
+            "metres_per_px": _length(told, "metres_per_px", MAX_METRES_PER_PX),
+            "name": _text(told, "short_name"),
+            "title": _text(told, "title"),
+            "about": _text(told, "about"),
+        },
+        settings=_settings(told.get("settings")),
+    )
+
+
+def written_text(text: str) -> str:
+    """Return a text as it can be read back: no half of a character, not too long."""
+    return text.encode("utf-8", "replace").decode()[:MAX_TEXT]
+
+
+def _json(content: bytes) -> Mapping[str, Any]:
+    """Return the object that the JSON holds."""
+    try:
+        told = json.loads(content)
+    except (ValueError, RecursionError):
+        raise ProjectError(f"{JSON_NAME} must be JSON; it is not") from None
+    if not isinstance(told, dict):
+        raise ProjectError(f"{JSON_NAME} must hold an object; it does not")
+    return told
+
+
+def _check_version(told: Mapping[str, Any]) -> None:
+    kind, version = told.get("format"), told.get("version")
+    if kind != FORMAT:
+        raise ProjectError(f"its format must be {FORMAT!r}; got {shown(kind)}")
+    if type(version) is not int or version not in VERSIONS:
+        raise ProjectError(
+            f"its version must be {' or '.join(map(str, VERSIONS))}, those that this "
+            f"application reads; got {shown(version)}"
+        )
+
+
+def _is_text(value: object) -> bool:
+    """Whether a value is text that every encoder takes, and not too long."""
+    if not isinstance(value, str) or len(value) > MAX_TEXT:
+        return False
+    # JSON may hold one half of a character beyond 16 bits.
+    return not any("\ud800" <= character <= "\udfff" for character in value)
+
+
+def _text(told: Mapping[str, Any], key: str) -> str:
+    value = told.get(key, "")
+    if not _is_text(value):
+        raise ProjectError(
+            f"{key} must be text of at most {MAX_TEXT} whole characters; "
+            f"got {shown(value)}"
+        )
+    return str(value)
+
+
+def _length(told: Mapping[str, Any], key: str, highest: float) -> float | None:
+    value = told.get(key)
+    if value is None:
+        return None
+    if not _is_number(value) or not 0 < value <= highest:
+        raise ProjectError(f"{key} must lie in (0, {highest:g}]; got {shown(value)}")
+    return float(value)
+
+
+def _is_number(value: object) -> bool:
+    # bool is an int to Python; a huge int has no float.
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) < 1e15 and math.isfinite(value)
+
+
+def _sketch(value: object) -> Sketch:
+    if (
+        not isinstance(value, list)
+        or len(value) > MAX_SKETCH
+        or not all(_is_corner(corner) for corner in value)
+    ):
+        raise ProjectError(
+            f"sketch must be at most {MAX_SKETCH} corners of x, y, px, within "
+            f"{MAX_LENGTH_PX:g} px of the drawing, and true for a waypoint"
+        )
+    return tuple((float(x), float(y), is_waypoint) for x, y, is_waypoint in value)
+
+
+def _is_corner(value: object) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == 3
+        and all(_is_number(v) and abs(v) <= MAX_LENGTH_PX for v in value[:2])
+        and isinstance(value[2], bool)
+    )
+
+
+def _sensor(value: object, door_px: float | None) -> Sensor:
+    """Return the proposed sensor; of an old file, the one that the door proposes."""
+    if value is None:
+        return Sensor() if door_px is None else Sensor(range_px=door_px)
+    checked = _parameters(value, "sensor", Sensor)
+    if "behind_hit" in checked:
+        checked["behind_hit"] = BehindHit(checked["behind_hit"])
+    return Sensor(**checked)
+
+
+def _wall_params(value: object) -> WallParams:
+    """Return the settings of wall detection."""
+    return WallParams(**_parameters(value, "wall_params", WallParams))
+
+
+def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
+    """Return values by the names and types of a class; it checks bounds itself."""
+    kinds = {item.name: item.type for item in fields(kind)}
+    if not isinstance(value, dict) or not set(value) <= set(kinds):
+        raise ProjectError(f"{what} must hold only {', '.join(kinds)}")
+    for key, got in value.items():
+        wanted = kinds[key]
+        if isinstance(wanted, type) and issubclass(wanted, Enum):
+            values = [choice.value for choice in wanted]
+            is_right, needed = got in values, f"one of {', '.join(values)}"
+        elif wanted is bool:
+            is_right, needed = isinstance(got, bool), "true or false"
+        else:
+            is_right, needed = _is_number(got), "a number"
+        if not is_right:
+            raise ProjectError(f"{key} in {what} must be {needed}; got {shown(got)}")
+    return value
+
+
+def _settings(value: object) -> Mapping[str, str]:
+    """Return the application's settings; it checks itself what they mean."""
+    if (
+        not isinstance(value, dict)
+        or len(value) > MAX_SETTINGS
+        or not all(_is_text(key) and _is_text(text) for key, text in value.items())
+    ):
+        raise ProjectError(
+            f"settings must be an object of at most {MAX_SETTINGS} texts"
+        )
+    return value
