@@ -1,10 +1,14 @@
-"""A Streamlit component made of the files of one folder: html, css and scripts."""
+"""Streamlit components made of files: html, css and scripts, the shared ones first."""
 
+import json
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 
 import streamlit as st
+
+SHARED = Path(__file__).parent / "shared"
+SHARED_SCRIPTS = ("bytes.js", "colours.js", "dom.js")
 
 
 def component(
@@ -18,6 +22,18 @@ def component(
     return st.components.v2.component(name, **_sources(folder, scripts))
 
 
+def packed(header: Mapping[str, object], *payloads: bytes) -> bytes:
+    """Return header and payloads as one string of bytes, the one way to send bytes.
+
+    Four bytes with the length of the header (little-endian), the header (JSON, UTF-8,
+    with the payloads' sizes), the payloads. ``readPacked`` in ``shared/bytes.js`` takes
+    them apart.
+    """
+    sized = {**header, "sizes": [len(payload) for payload in payloads]}
+    encoded = json.dumps(sized, separators=(",", ":"), allow_nan=False).encode()
+    return b"".join((len(encoded).to_bytes(4, "little"), encoded, *payloads))
+
+
 def keep_state() -> None:
     """Do nothing: Streamlit keeps a state value only if there is a callback for it."""
 
@@ -26,11 +42,13 @@ def keep_state() -> None:
 def _sources(folder: Path, scripts: tuple[str, ...]) -> dict[str, str]:
     """The texts of a component; the scripts joined in order into one module."""
 
-    def text(name: str) -> str:
-        return (folder / name).read_text(encoding="utf-8")
+    def text(path: Path) -> str:
+        return path.read_text(encoding="utf-8")
 
+    shared = [SHARED / name for name in SHARED_SCRIPTS]
+    own = [folder / name for name in scripts]
     return {
-        "html": text(f"{folder.name}.html"),
-        "css": text(f"{folder.name}.css"),
-        "js": "\n".join(text(name) for name in scripts),
+        "html": text(folder / f"{folder.name}.html"),
+        "css": text(SHARED / "shared.css") + text(folder / f"{folder.name}.css"),
+        "js": "\n".join(text(path) for path in (*shared, *own)),
     }

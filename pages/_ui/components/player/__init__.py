@@ -6,7 +6,6 @@ chose when a hand lets go. The scripts beside this file are plain functions, joi
 in a fixed order into the one module that Streamlit wants.
 """
 
-import json
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
@@ -19,7 +18,7 @@ from occsim.logodds import DECISION_EPS
 from occsim.prior import PRIOR_SCALE
 from pages._ui import palette
 from pages._ui.choices import CHOICES, Overlay
-from pages._ui.components import component, keep_state
+from pages._ui.components import component, keep_state, packed
 from pages._ui.settings import TABLE, Settings, with_changes
 
 FOLDER = Path(__file__).parent
@@ -186,7 +185,7 @@ def map_player(
 
 
 def player_data(replay: bytes, document: PlayerDocument, key: str) -> bytes:
-    """Return what the browser gets: length of the header, header (JSON), replay."""
+    """Return what the browser gets: header and replay."""
     header = {
         "key": key,
         "digest": f"{len(replay)}-{zlib.crc32(replay)}",
@@ -197,8 +196,7 @@ def player_data(replay: bytes, document: PlayerDocument, key: str) -> bytes:
         "colours": COLOURS,
         "texts": TEXTS,
     }
-    encoded = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
-    return len(encoded).to_bytes(4, "little") + encoded + replay
+    return packed(header, replay)
 
 
 def _limits(name: str) -> dict[str, float]:

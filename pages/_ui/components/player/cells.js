@@ -4,24 +4,6 @@
 const HATCH_GAP = 5; // on the screen, px
 const TINT = 0.55; // share of an overlay's colour over the grey beneath
 
-function rgbOf(hex) {
-  const n = parseInt(hex.slice(1), 16);
-  return [n >> 16, (n >> 8) & 255, n & 255];
-}
-
-// As a canvas keeps it: alpha, blue, green, red from the high byte down.
-const packed = ([r, g, b]) => (255 << 24) | (b << 16) | (g << 8) | r;
-
-const mixed = (from, to, share) =>
-  from.map((v, i) => Math.round(v + (to[i] - v) * share));
-
-function offscreen(width, height) {
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.max(1, width);
-  canvas.height = Math.max(1, height);
-  return canvas;
-}
-
 class CellPicture {
   constructor(model, colours) {
     this.model = model;
@@ -41,12 +23,12 @@ class CellPicture {
     const [dark, light] = [rgbOf(colours.beliefOccupied), rgbOf(colours.beliefFree)];
     const tint = rgbOf(overlay === "truth" ? colours.groundTruth : colours.wallMask);
     const levels = Array.from({ length: 256 }, (_, i) => mixed(dark, light, i / 255));
-    this.grey = Uint32Array.from(levels, packed);
-    this.tinted = Uint32Array.from(levels, (rgb) => packed(mixed(rgb, tint, TINT)));
+    this.grey = Uint32Array.from(levels, pixelOf);
+    this.tinted = Uint32Array.from(levels, (rgb) => pixelOf(mixed(rgb, tint, TINT)));
     // In the order of the counts: TP, FP, FN, TN.
     const verdict = [colours.hit, colours.falseWall, colours.missedWall, colours.free];
-    this.verdict = verdict.map((hex) => packed(rgbOf(hex)));
-    this.unseen = packed(rgbOf(colours.unseen));
+    this.verdict = verdict.map((hex) => pixelOf(rgbOf(hex)));
+    this.unseen = pixelOf(rgbOf(colours.unseen));
     this.marked = { wall_mask: model.isWall, truth: model.truth }[overlay] ?? null;
     this.errors = overlay === "errors";
     this.allCells = allCells;

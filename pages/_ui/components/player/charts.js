@@ -1,21 +1,5 @@
 // The score curves and the waterfall of one cell's log-odds.
 
-// Sizes a canvas to its box on the page; returns its context in CSS px.
-function fitted(canvas) {
-  const ratio = Math.min(3, window.devicePixelRatio || 1);
-  const width = canvas.clientWidth;
-  const height = canvas.clientHeight;
-  if (canvas.width !== Math.round(width * ratio))
-    canvas.width = Math.round(width * ratio);
-  if (canvas.height !== Math.round(height * ratio)) {
-    canvas.height = Math.round(height * ratio);
-  }
-  const context = canvas.getContext("2d");
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, width, height);
-  return { context, width, height };
-}
-
 function line(context, x0, y0, x1, y1) {
   context.beginPath();
   context.moveTo(x0, y0);
@@ -50,18 +34,18 @@ function drawCurve(canvas, values, step, ink) {
       context.fillText(`${100 * level} %`, width - right + 5, y(level));
   }
   context.lineJoin = "round";
-  context.strokeStyle = ink.text;
+  context.strokeStyle = ink.ink;
   context.lineWidth = 1.25;
   context.globalAlpha = 0.3;
   traceCurve(context, values, step, last, x, y);
   context.globalAlpha = 1;
   context.lineWidth = 1.75;
   traceCurve(context, values, 0, step, x, y);
-  context.strokeStyle = ink.mark;
+  context.strokeStyle = ink.accent;
   context.lineWidth = 1;
   line(context, x(step), 1, x(step), height - 1);
   if (Number.isNaN(values[step])) return;
-  context.fillStyle = ink.mark;
+  context.fillStyle = ink.accent;
   context.beginPath();
   context.arc(x(step), y(values[step]), 3, 0, TWO_PI);
   context.fill();
@@ -171,7 +155,7 @@ class TermsChart {
       context.globalAlpha = bar.done ? 1 : 0.28;
       context.fillStyle = bar.to < bar.from ? ink.wall : ink.free;
       context.fillRect(x, Math.min(a, b), thick, Math.max(1, Math.abs(b - a)));
-      context.strokeStyle = ink.text;
+      context.strokeStyle = ink.ink;
       context.lineWidth = 1.5;
       line(context, x, b, i + 1 < this.bars.length ? x + this.slot : x + thick, b);
     });
@@ -197,7 +181,7 @@ class TermsChart {
   drawStep(context, height, ink) {
     const done = this.bars.filter((bar) => bar.done).length;
     const x = this.x(done - 0.5);
-    context.strokeStyle = ink.mark;
+    context.strokeStyle = ink.accent;
     context.lineWidth = 1;
     context.setLineDash([3, 2]);
     line(context, x, 2, x, height - TERMS_ROOM.bottom);

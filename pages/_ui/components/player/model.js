@@ -4,13 +4,6 @@
 // the prior's log-odds l_0 and, per cell, the number k and the sum S of its readings:
 // l = S + (1 - k) l_0 (subtract prior) or l = S + l_0 (prior once).
 
-async function inflate(bytes) {
-  const stream = new Blob([bytes])
-    .stream()
-    .pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).arrayBuffer();
-}
-
 // The layout is described in occsim/formats/replay.py.
 function decodeReplay(buffer) {
   const word = new Uint32Array(buffer, 0, 12);
@@ -56,12 +49,6 @@ function decodeReplay(buffer) {
     poses,
     preview,
   };
-}
-
-function unpackBits(bytes, count) {
-  const flags = new Uint8Array(count);
-  for (let i = 0; i < count; i++) flags[i] = (bytes[i >> 3] >> (7 - (i & 7))) & 1;
-  return flags;
 }
 
 function expandRuns(runs, gap, length, nEntries) {

@@ -6,13 +6,6 @@
 // By key: what a player that the page unmounted showed, and what Python knows of it.
 const remembered = new Map();
 
-function readData(bytes) {
-  const view = new DataView(bytes.buffer, bytes.byteOffset);
-  const start = 4 + view.getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, start)));
-  return { header, replay: bytes.subarray(start) };
-}
-
 class Player {
   constructor(root) {
     this.root = root;
@@ -80,7 +73,7 @@ class Player {
   async receive(data, send) {
     this.send = send;
     if (!data) return;
-    const { header, replay } = readData(data);
+    const [header, replay] = readPacked(data);
     const sameDocument = this.header?.document.rev === header.document.rev;
     const sameReplay = this.header?.digest === header.digest;
     if (!this.stage) this.start(header);
@@ -128,7 +121,7 @@ class Player {
     const stopped = this.playback.playing;
     this.playback.pause(false);
     const load = ++this.load;
-    const decoded = decodeReplay(await inflate(replay));
+    const decoded = decodeReplay((await inflated(replay)).buffer);
     const preview = await decodePreview(decoded.preview);
     if (load !== this.load) return; // newer data is on its way
     this.model = new MapModel(decoded, this.header.constants);
@@ -216,24 +209,8 @@ class Player {
   // Colours of the page's theme, for the canvases.
   readInk() {
     const { colours } = this.header;
-    this.ink = {
-      text: this.resolved("var(--ink)"),
-      muted: this.resolved("var(--muted)"),
-      line: this.resolved("var(--line)"),
-      mark: this.resolved("var(--accent)"),
-      font: getComputedStyle(this.root).fontFamily,
-      wall: colours.evidenceWall,
-      free: colours.evidenceFree,
-    };
-  }
-
-  // A canvas cannot read color-mix() through a variable: let the page work it out.
-  resolved(colour) {
-    const probe = element("i", { style: `color: ${colour}` });
-    this.root.append(probe);
-    const value = getComputedStyle(probe).color;
-    probe.remove();
-    return value;
+    const { evidenceWall: wall, evidenceFree: free } = colours;
+    this.ink = { ...themeOf(this.root), wall, free };
   }
 
   // ---- what is drawn again -----------------------------------------------------------

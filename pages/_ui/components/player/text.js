@@ -25,14 +25,6 @@ function probability(p) {
     : `1 ${MINUS} ${(1 - p).toExponential(1).replace("-", MINUS)}`;
 }
 
-function element(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes))
-    made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-}
-
 function rows(pairs) {
   return pairs.flatMap(([name, value]) => [
     element("dt", {}, name),

@@ -1,0 +1,38 @@
+// Bytes from and to Python: the other half is `packed` in components/__init__.py.
+
+// What `packed` put together: [header, payload, payload, ...].
+function readPacked(data) {
+  const bytes = new Uint8Array(data.buffer ?? data, data.byteOffset, data.byteLength);
+  const start = 4 + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, start)));
+  let at = start;
+  const payloads = header.sizes.map((size) => bytes.subarray(at, (at += size)));
+  return [header, ...payloads];
+}
+
+async function piped(bytes, transform) {
+  const stream = new Blob([bytes]).stream().pipeThrough(transform);
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// zlib streams, as Python's zlib.compress and zlib.decompress have them.
+const inflated = (bytes) => piped(bytes, new DecompressionStream("deflate"));
+const deflated = (bytes) => piped(bytes, new CompressionStream("deflate"));
+
+// One bit a flag, high bit first, as numpy.packbits and numpy.unpackbits have them.
+function unpackBits(bytes, count) {
+  const flags = new Uint8Array(count);
+  for (let i = 0; i < count; i++) flags[i] = (bytes[i >> 3] >> (7 - (i & 7))) & 1;
+  return flags;
+}
+
+function packBits(flags) {
+  const bytes = new Uint8Array(Math.ceil(flags.length / 8));
+  for (let i = 0; i < flags.length; i++) if (flags[i]) bytes[i >> 3] |= 128 >> (i & 7);
+  return bytes;
+}
+
+// For what goes back to Python: a component's state is JSON.
+const base64 = (bytes) => btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join(""));
+
+const pictureOf = (bytes) => createImageBitmap(new Blob([bytes]));

@@ -1,0 +1,36 @@
+// Small pieces of the page. Text from outside enters as text, never as HTML.
+
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
+const partOf = (root, name) => root.querySelector(`[data-part=${name}]`);
+
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+
+// Canvas pixels to one CSS pixel.
+const pixelRatio = () => Math.min(3, window.devicePixelRatio || 1);
+
+function offscreen(width, height) {
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.max(1, width);
+  canvas.height = Math.max(1, height);
+  return canvas;
+}
+
+// Gives a canvas the pixels of its box on the page; returns its context in CSS px.
+function fitted(canvas) {
+  const ratio = pixelRatio();
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const size = [Math.round(width * ratio), Math.round(height * ratio)];
+  // Setting a size clears a canvas and costs much, also where it stays the same.
+  if (canvas.width !== size[0]) canvas.width = size[0];
+  if (canvas.height !== size[1]) canvas.height = size[1];
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return { context, width, height };
+}
