@@ -1,75 +1,28 @@
 """The map player in a real browser: its numbers are occsim's, its controls work."""
 
-from functools import cache
 from itertools import product
 
 import numpy as np
 import pytest
 
-from occsim import (
-    Prior,
-    Region,
-    Sensor,
-    UpdateRule,
-    collect_evidence,
-    fuse,
-    load_sample,
-    truth_cells,
-)
-from occsim.building import building_from_sample
+from occsim import Prior, Region, UpdateRule, fuse
 from occsim.metrics import scores_by_reading
 from occsim.prior import prior_from_cells
-from occsim.world import wall_cells
+from tests.browser.players import (
+    ROOT,
+    choose,
+    inspect,
+    open_player,
+    point_of,
+    run,
+    scrub,
+    settled,
+    shown,
+    slide,
+    wait_until,
+)
 
 pytestmark = pytest.mark.browser
-
-CELL_PX = 3
-FOV_RAD = np.pi / 6
-ROOT = ".player"
-
-
-@cache
-def run():
-    """The run that the page shows first, by occsim: log, wall cells, truth."""
-    building = building_from_sample("a")
-    sensor = Sensor(range_px=load_sample("a").sensor.range_px, fov_rad=FOV_RAD)
-    grid = building.world.grid(CELL_PX)
-    log = collect_evidence(building.world, building.trajectory, sensor, grid)
-    is_wall = wall_cells(building.wall_mask, grid)
-    return log, is_wall, truth_cells(building.world, grid)
-
-
-def open_player(page, app_url):
-    page.goto(f"{app_url}/Build_a_map?drawing=a")
-    page.wait_for_selector(f"{ROOT}[data-ready='1']")
-    return page.locator(ROOT)
-
-
-def shown(player, *names):
-    data = player.evaluate("root => ({...root.dataset})")
-    return [int(data[name]) for name in names]
-
-
-def scrub(player, step):
-    player.locator("[data-part=scrub]").fill(str(step))
-
-
-def slide(player, name, value):
-    player.locator(f"[data-slider={name}] input").fill(f"{value:.2f}")
-
-
-def choose(player, name, value):
-    player.locator(f"input[name={name}][value={value}]").check()
-
-
-def wait_until(page, player, condition):
-    page.wait_for_function(condition, arg=player.element_handle())
-
-
-def settled(page):
-    """Wait until the page has answered what the player committed."""
-    page.wait_for_timeout(600)
-    page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")
 
 
 @pytest.mark.parametrize(
@@ -104,10 +57,7 @@ def test_log_odds_are_those_of_occsim_after_walking_both_ways(page, app_url, rul
     prior_map = prior_from_cells(is_wall, log.grid, Prior(p_wall=0.2, p_space=0.9))
     for step in (300, 37, 212):
         scrub(player, step)
-        values = player.evaluate(
-            """root => Array.from({length: root.model.nCells},
-                 (_, c) => root.model.mapLogOdds(c))"""
-        )
+        values = inspect(player)["logOdds"]
         expected = fuse(log, prior_map, rule, n_readings=step).log_odds
         np.testing.assert_allclose(values, expected.ravel(), rtol=0, atol=1e-12)
 
@@ -163,47 +113,33 @@ def most_read_wall_cell():
     return int(counts.argmax())
 
 
-def cell_point(player, cell):
-    grid = run()[0].grid
-    box = player.locator("[data-pane=map] canvas").bounding_box()
-    row, col = divmod(cell, grid.n_cols)
-    scale = box["width"] / grid.width_px
-    half = CELL_PX / 2
-    return (
-        box["x"] + (col * CELL_PX + half) * scale,
-        box["y"] + (row * CELL_PX + half) * scale,
-    )
-
-
 def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
     """Under SUBTRACT_PRIOR reading k adds its log-odds less l_0, and they sum to l."""
     log, is_wall, _ = run()
     cell = most_read_wall_cell()
     player = open_player(page, app_url)
-    page.mouse.click(*cell_point(player, cell))
+    choose(player, "rule", UpdateRule.SUBTRACT_PRIOR.value)
+    page.mouse.click(*point_of(player, cell))
     scrub(player, log.n_readings)
     entries = np.flatnonzero(log.cell == cell)
     l_0 = np.log(0.18 / 0.82)
-    history = player.evaluate("(root, cell) => root.model.history(cell)", cell)
+    history = inspect(player)["history"]
     assert history["prior"] == pytest.approx(l_0, abs=1e-12)
     assert [t["reading"] for t in history["terms"]] == log.reading[entries].tolist()
     added = [term["added"] for term in history["terms"]]
     np.testing.assert_allclose(added, log.log_odds[entries] - l_0, atol=1e-12)
-    total = fuse(log, prior_from_cells(is_wall, log.grid, Prior())).log_odds.flat[cell]
+    prior_map = prior_from_cells(is_wall, log.grid, Prior())
+    total = fuse(log, prior_map, UpdateRule.SUBTRACT_PRIOR).log_odds.flat[cell]
     assert l_0 + sum(added) == pytest.approx(total, abs=1e-9)
     facts = player.locator("[data-part=cell-facts]").inner_text()
     assert f"{abs(total):.3f}" in facts
 
     first = int(log.reading[entries[0]])
-    bar = player.evaluate(
-        "root => root.player.inspector.terms.x(1) + "
-        "root.player.inspector.terms.canvas.getBoundingClientRect().left"
-    )
     box = player.locator("[data-part=terms]").bounding_box()
-    page.mouse.click(bar, box["y"] + 20)
+    page.mouse.click(box["x"] + inspect(player)["bars"][1], box["y"] + 20)
     assert shown(player, "step") == [first + 1]
     page.keyboard.press("Escape")
-    assert player.locator("[data-panel=scores]").is_visible()
+    assert player.locator("[data-part=scores]").is_visible()
 
 
 def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
@@ -211,14 +147,14 @@ def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
     cell = most_read_wall_cell()
     player = open_player(page, app_url)
     scrub(player, log.n_readings)
-    page.mouse.move(*cell_point(player, cell))
+    page.mouse.move(*point_of(player, cell))
     card = player.locator(".card")
     card.wait_for()
     text = card.inner_text()
     assert "wall cell" in text
     assert "0.180" in text
     assert str(int(log.totals()[1].flat[cell])) in text
-    assert player.evaluate("root => root.player.stage.hover") == cell
+    assert inspect(player)["hover"] == cell
 
 
 def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
@@ -226,11 +162,11 @@ def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
     player.locator("[data-pane=map] canvas").focus()
     before = shown(player, "step")
     page.keyboard.press("ArrowRight")
-    first = player.evaluate("root => root.player.stage.hover")
+    first = inspect(player)["hover"]
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     n_cols = run()[0].grid.n_cols
-    assert player.evaluate("root => root.player.stage.pin") == first + n_cols
+    assert inspect(player)["pin"] == first + n_cols
     assert shown(player, "step") == before
 
 
@@ -258,7 +194,7 @@ def test_another_cell_size_in_mid_play_stops_and_keeps_the_step(page, app_url):
     wait_until(page, player, "root => root.dataset.step > 105")
     slider = page.get_by_test_id("stSlider").filter(has_text="Cell size")
     slider.get_by_role("slider").press("ArrowRight")
-    wait_until(page, player, "root => root.model.cellPx === 4")
+    wait_until(page, player, "root => root.dataset.cellPx === '4'")
     (step,) = shown(player, "step")
     assert shown(player, "playing") == [0]
     assert step > 105
@@ -290,7 +226,7 @@ def test_a_hidden_player_waits_and_comes_back_whole(page, app_url):
     player.get_by_role("button", name="Play").click()
     before = player.locator("[data-pane=map] canvas").bounding_box()
     player.evaluate("root => { root.style.display = 'none'; }")
-    wait_until(page, player, "root => root.player.stage.scale === 0")
+    wait_until(page, player, "root => root.inspect().scale === 0")
     player.evaluate("root => { root.style.display = ''; }")
-    wait_until(page, player, "root => root.player.stage.scale > 0")
+    wait_until(page, player, "root => root.inspect().scale > 0")
     assert player.locator("[data-pane=map] canvas").bounding_box() == before

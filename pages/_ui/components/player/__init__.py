@@ -24,10 +24,13 @@ from pages._ui.settings import TABLE, Settings, with_changes
 FOLDER = Path(__file__).parent
 SCRIPTS = (
     "text.js",
+    "replay.js",
     "model.js",
     "cells.js",
     "stage.js",
-    "charts.js",
+    "draw.js",
+    "curves.js",
+    "terms.js",
     "playback.js",
     "controls.js",
     "inspector.js",
