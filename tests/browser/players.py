@@ -14,11 +14,11 @@ ROOT = ".player"
 
 
 @cache
-def run():
+def run(cell_px=CELL_PX):
     """The run that the page shows first, by occsim: log, wall cells, truth."""
     building = building_from_sample("a")
     sensor = Sensor(range_px=load_sample("a").sensor.range_px, fov_rad=FOV_RAD)
-    grid = building.world.grid(CELL_PX)
+    grid = building.world.grid(cell_px)
     log = collect_evidence(building.world, building.trajectory, sensor, grid)
     is_wall = wall_cells(building.wall_mask, grid)
     return log, is_wall, truth_cells(building.world, grid)

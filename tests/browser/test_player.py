@@ -9,6 +9,7 @@ from occsim import Prior, Region, UpdateRule, fuse
 from occsim.metrics import scores_by_reading
 from occsim.prior import prior_from_cells
 from tests.browser.players import (
+    CELL_PX,
     ROOT,
     choose,
     inspect,
@@ -230,3 +231,130 @@ def test_a_hidden_player_waits_and_comes_back_whole(page, app_url):
     player.evaluate("root => { root.style.display = ''; }")
     wait_until(page, player, "root => root.inspect().scale > 0")
     assert player.locator("[data-pane=map] canvas").bounding_box() == before
+
+
+REPLAY_SETTINGS = {
+    "cell_px": ("Cell size", "ArrowRight"),
+    "range_px": ("Range", "ArrowRight"),
+    "fov_deg": ("Field of view", "ArrowRight"),
+    "behind_hit": ("Unseen", None),
+    "clear_no_hit": ("A ray that meets nothing", None),
+    "wall_share": ("Wall share of the prior", "End"),
+    "truth_share": ("Wall share of the ground truth", "End"),
+}
+"""What sends the player another replay: label on the page, key or click."""
+
+
+def change(page, player, name):
+    """Change a setting of the page by hand; wait for the replay that follows."""
+    label, key = REPLAY_SETTINGS[name]
+    before = player.evaluate("root => root.player.header.digest")
+    is_hidden = name not in ("cell_px", "range_px", "fov_deg")
+    if is_hidden:
+        page.get_by_role("button", name="More settings").click()
+    if key:
+        slider = page.get_by_test_id("stSlider").filter(has_text=label)
+        slider.get_by_role("slider").press(key)
+    else:
+        page.get_by_text(label).first.click()
+    page.wait_for_function(
+        "([root, before]) => root.player.header.digest !== before",
+        arg=[player.element_handle(), before],
+    )
+    if is_hidden:
+        page.keyboard.press("Escape")
+    settled(page)
+
+
+@pytest.mark.parametrize("name", REPLAY_SETTINGS)
+def test_a_pinned_cell_outlives_a_change_of_each_setting(page, app_url, name):
+    """The pin stays on the same point of the drawing; map, play and scrub go on."""
+    log, _, _ = run()
+    player = open_player(page, app_url)
+    cell = log.grid.n_cells - 2
+    page.mouse.click(*point_of(player, cell))
+    scrub(player, 200)
+    settled(page)
+    change(page, player, name)
+    now = run(CELL_PX + 1)[0].grid if name == "cell_px" else log.grid
+    row, col = divmod(cell, log.grid.n_cols)
+    x, y = (col + 0.5) * CELL_PX, (row + 0.5) * CELL_PX
+    pinned = int(y // now.cell_px) * now.n_cols + int(x // now.cell_px)
+    assert inspect(player)["pin"] == pinned
+    row, col = divmod(pinned, now.n_cols)
+    title = player.locator("[data-part=cell-name]").inner_text()
+    assert title == f"Cell row {row}, column {col}"
+    assert shown(player, "step") == [200]
+    scrub(player, 10)
+    player.get_by_role("button", name="Play").click()
+    wait_until(page, player, "root => root.dataset.step > 12")
+
+
+def test_the_numbers_shown_after_a_change_of_cell_size_are_the_new_ones(page, app_url):
+    """A restored player scores and draws the new data, not what it held before."""
+    player = open_player(page, app_url)
+    page.mouse.click(*point_of(player, most_read_wall_cell()))
+    scrub(player, 200)
+    settled(page)
+    change(page, player, "cell_px")
+    log, is_wall, truth = run(CELL_PX + 1)
+    prior_map = prior_from_cells(is_wall, log.grid, Prior())
+    at = scores_by_reading(log, prior_map, truth, UpdateRule.PRIOR_ONCE).at(200)
+    assert shown(player, "tp", "fp", "fn", "tn") == [at.tp, at.fp, at.fn, at.tn]
+
+
+COUNT_WHAT_IS_HEARD = """root => {
+  root.heard = [];
+  const live = "output, [role=status], [role=alert], [aria-live]:not([aria-live=off])";
+  for (const region of root.querySelectorAll(live)) {
+    new MutationObserver(() => root.heard.push(region.textContent)).observe(
+      region, { childList: true, characterData: true, subtree: true });
+  }
+}"""
+
+
+def test_a_screen_reader_hears_the_scores_when_the_replay_pauses(page, app_url):
+    player = open_player(page, app_url)
+    player.evaluate(COUNT_WHAT_IS_HEARD)
+    player.get_by_role("button", name="Play").click()
+    (step,) = shown(player, "step")
+    wait_until(page, player, f"root => root.dataset.step > {step + 10}")
+    assert player.evaluate("root => root.heard") == []
+    player.get_by_role("button", name="Pause").click()
+    wait_until(page, player, "root => root.heard.length")
+    (words,) = player.evaluate("root => root.heard")
+    (step,) = shown(player, "step")
+    recall = player.locator("[data-score=recall] .value").inner_text()
+    assert words.startswith(f"reading {step} of {run()[0].n_readings}: ")
+    assert f"Recall {recall}" in words
+
+
+def test_a_screen_reader_hears_the_pinned_cell(page, app_url):
+    player = open_player(page, app_url)
+    player.evaluate(COUNT_WHAT_IS_HEARD)
+    player.locator("[data-pane=map] canvas").focus()
+    page.keyboard.press("ArrowRight")
+    (hovered,) = player.evaluate("root => root.heard")
+    page.keyboard.press("Enter")
+    wait_until(page, player, "root => root.heard.length > 1")
+    *_, pinned = player.evaluate("root => root.heard")
+    n_cols = run()[0].grid.n_cols
+    row, col = divmod(inspect(player)["pin"], n_cols)
+    for words in (hovered, pinned):
+        assert f"Cell row {row}, column {col}: class " in words
+        assert "p_free 0." in words
+
+
+def test_a_document_imposed_in_mid_play_stops_the_replay(page, app_url):
+    player = open_player(page, app_url)
+    (rev,) = shown(player, "rev")
+    slide(player, "p_wall", 0.5)
+    settled(page)
+    player.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Reset all").click()
+    wait_until(page, player, f"root => root.dataset.rev > {rev}")
+    (step,) = shown(player, "step")
+    assert shown(player, "playing") == [0]
+    settled(page)
+    assert shown(player, "step") == [step]
+    assert player.evaluate("root => root.dataset.pWall") == "0.2"

@@ -77,7 +77,7 @@ class PlayerDocument:
     p_wall: float = 0.2
     p_space: float = 0.9
     uninformative: bool = False
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE
     region: Region = Region.EXPLORED
     overlay: Overlay = Overlay.NONE
     step: int = 0
