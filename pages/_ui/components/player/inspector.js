@@ -122,7 +122,14 @@ function cellWords(model, c) {
 }
 
 function termCard({ model, pin }, { term, to }) {
-  if (!term) return ["Prior", [["l_0", signed(to, 3)], ["p_free", probability(pFreeOf(to))]]];
+  if (!term)
+    return [
+      "Prior",
+      [
+        ["l_0", signed(to, 3)],
+        ["p_free", probability(pFreeOf(to))],
+      ],
+    ];
   const facts = [
     ["p_free(reading)", probability(pFreeOf(term.said))],
     ["its log-odds", signed(term.said, 3)],

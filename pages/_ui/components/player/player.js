@@ -146,8 +146,7 @@ function adopted({ key, digest, document }, current) {
     return known.state;
   }
   const state = { ...document };
-  const isLate =
-    !current && known?.digest === digest && known.toldStep === document.step;
+  const isLate = !current && known?.digest === digest && known.toldStep === document.step;
   if (isLate) state.step = known.state.step;
   remembered.set(key, { state, digest, toldStep: document.step });
   return state;
