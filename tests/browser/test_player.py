@@ -75,6 +75,14 @@ def test_uninformative_prior_is_one_half_and_disables_the_sliders(page, app_url)
         assert player.locator(f"[data-slider={name}] input").is_disabled()
 
 
+def test_a_slider_tells_the_probability_that_it_sets(page, app_url):
+    player = open_player(page, app_url)
+    slide(player, "p_wall", 0.35)
+    slide(player, "p_space", 0.8)
+    words = player.locator(".slider small").all_inner_texts()
+    assert words == ["p_free = 0.9 × 0.35 = 0.315", "p_free = 0.9 × 0.80 = 0.720"]
+
+
 def test_keys_step_jump_and_play(page, app_url):
     last = run()[0].n_readings
     player = open_player(page, app_url)
@@ -155,6 +163,10 @@ def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
     assert "wall cell" in text
     assert "0.180" in text
     assert str(int(log.totals()[1].flat[cell])) in text
+    final = fuse(log, prior_from_cells(is_wall, log.grid, Prior())).log_odds.flat[cell]
+    assert f"declared\t{'wall' if final < -1e-9 else 'no wall'}" in text.replace(
+        "\n", "\t"
+    )
     assert inspect(player)["hover"] == cell
 
 

@@ -1,23 +1,6 @@
 """The list of kept mutations: what is changed, why it matters, who must notice."""
 
-import sys
-from typing import NamedTuple
+from tests.mutate.mutation import Mutation
+from tests.mutate.scripts import SCRIPTS
 
-
-class Mutation(NamedTuple):
-    """A text of a file that is replaced by another, and the tests that must fail."""
-
-    file: str
-    old: str
-    new: str
-    tests: tuple[str, ...]
-    why: str
-
-    def command(self) -> list[str]:
-        """The command that must end in status 1."""
-        if self.tests[0].endswith(".mjs"):
-            return ["node", "--test", *self.tests]
-        return [sys.executable, "-m", "pytest", "-x", "-q", *self.tests]
-
-
-MUTATIONS: tuple[Mutation, ...] = ()
+MUTATIONS: tuple[Mutation, ...] = (*SCRIPTS,)

@@ -29,7 +29,7 @@ test("a waterfall goes from one total to the next and knows what is still to com
     { reading: 2, total: 0.5 },
     { reading: 9, total: -0.25 },
   ];
-  const bars = player.waterfall({ prior: -1, terms }, 5);
+  const bars = player.waterfall({ prior: -1, terms }, 9);
   assert.deepEqual(
     bars.map(({ from, to }) => [from, to]),
     [
