@@ -32,6 +32,13 @@ _ROWS = (
     ),
     (
         "player/model.js",
+        "Math.round((Math.log(p) - Math.log1p(-p)) / LATTICE) * LATTICE",
+        "Math.log(p) - Math.log1p(-p)",
+        MODEL,
+        "a prior off the lattice",
+    ),
+    (
+        "player/model.js",
         "(model.once ? 1 : 1 - k)",
         "(model.once ? 1 : -k)",
         MODEL,

@@ -1,7 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load, seeded } from "./scripts.mjs";
-import { CONSTANTS, naiveCounts, naiveLogOdds, randomReplay, replayOf, STATES } from "./worlds.mjs";
+import {
+  CONSTANTS,
+  logit,
+  naiveCounts,
+  naiveLogOdds,
+  randomReplay,
+  replayOf,
+  STATES,
+} from "./worlds.mjs";
 
 const player = load("player");
 
@@ -18,7 +26,7 @@ function modelOf(replay, state) {
 // is read 0.9, then 0.1; the space cell 0.1 once. In log-odds, ln 9 = 2.19722458:
 // prior once: ln(0.45/0.55) = -0.2006706955 in the end, and 2.19722458 - 2.19722458 = 0.
 // Subtract prior: l_0 + 0 - 2 l_0 = 0.2006706955, and 0 - ln 9.
-const LN9 = Math.log(9);
+const LN9 = logit(0.9);
 const byHand = () =>
   replayOf(
     1,
@@ -87,7 +95,7 @@ test("an uninformative prior is one half, and both rules agree", () => {
   }
 });
 
-test("any walk through the steps gives the map that a naive fusion gives", () => {
+test("any walk through the steps gives exactly what a naive fusion gives", () => {
   const random = seeded(7);
   for (const [i, state] of STATES.entries()) {
     const world = randomReplay(i);
@@ -96,7 +104,7 @@ test("any walk through the steps gives the map that a naive fusion gives", () =>
       const step = Math.floor(random() * 41);
       player.seek(model, step);
       const expected = naiveLogOdds(world, step, state);
-      expected.forEach((l, c) => close(player.logOddsAt(model, c), l, `cell ${c}, step ${step}`));
+      expected.forEach((l, c) => assert.equal(player.logOddsAt(model, c), l, `cell ${c}`));
     }
   }
 });
@@ -168,4 +176,12 @@ test("p_free is the inverse of log-odds, without overflow", () => {
   for (const p of [0.1, 0.5, 0.81, 0.999]) close(player.pFreeOf(player.logit(p)), p, "p");
   assert.equal(player.pFreeOf(800), 1);
   assert.equal(player.pFreeOf(-800), 0);
+});
+
+test("log-odds lie on a lattice, on which a tie is exactly zero", () => {
+  for (let p = 0.01; p < 1; p += 0.01) {
+    assert.ok(Number.isInteger(player.logit(p) * 2 ** 36));
+    close(player.logit(p), Math.log(p / (1 - p)), "logit");
+  }
+  for (const p of [0.1, 0.18, 0.45, 0.09]) assert.equal(player.logit(p) + player.logit(1 - p), 0);
 });

@@ -2,6 +2,9 @@
 
 import { seeded } from "./scripts.mjs";
 
+// Log-odds of a probability, on the lattice of occsim.logodds.
+export const logit = (p) => Math.round(Math.log(p / (1 - p)) * 2 ** 36) / 2 ** 36;
+
 export const CONSTANTS = { decisionEps: 1e-9, priorScale: 0.9 };
 
 // A replay from readings, each a list of [cell, log-odds].
@@ -31,7 +34,7 @@ export function replayOf(nRows, nCols, cellPx, readings, { isWall, truth }) {
 // Readings of about a third of 30 cells each; values repeat, as real ones do.
 export function randomReadings(seed, nReadings = 40, nCells = 30) {
   const random = seeded(seed);
-  const values = [0.1, 0.25, 0.5, 0.75, 0.9].map((p) => Math.log(p / (1 - p)));
+  const values = [0.1, 0.25, 0.5, 0.75, 0.9].map(logit);
   const pick = () => values[Math.floor(random() * values.length)];
   const cells = () => [...Array(nCells).keys()].filter(() => random() < 0.35);
   return Array.from({ length: nReadings }, () => cells().map((cell) => [cell, pick()]));
@@ -52,8 +55,7 @@ export function randomReplay(seed) {
 // Robotics is written: l_k = l_(k-1) + reading [- l_0].
 export function naiveLogOdds({ readings, isWall }, step, { p_wall, p_space, rule }) {
   return isWall.map((wall, cell) => {
-    const p = 0.9 * (wall ? p_wall : p_space);
-    const l0 = Math.log(p / (1 - p));
+    const l0 = logit(0.9 * (wall ? p_wall : p_space));
     let l = l0;
     for (const reading of readings.slice(0, step)) {
       for (const [c, said] of reading) {
