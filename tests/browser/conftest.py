@@ -1,4 +1,4 @@
-"""Fixtures for what a person does: the app's address, a window of a real browser."""
+"""Fixtures for what a person does: the app's address, windows of a real browser."""
 
 import contextlib
 
@@ -18,32 +18,53 @@ def app_url(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def chromium():
+def browser():
     with running_chromium() as browser:
         yield browser
 
 
-def error_text(line) -> list[str]:
+def _error_text(line) -> list[str]:
     """What a console line complains of; Streamlit's probes for its base path aside.
 
     On a deep link its client first asks for the health of a server below that path,
     and the browser logs the 404 of that question.
     """
     probe = "404" in line.text and "_stcore" in line.location.get("url", "")
-    where = line.location.get("url", "")
-    return [f"{line.text} {where}"] if line.type == "error" and not probe else []
+    return [line.text] if line.type == "error" and not probe else []
+
+
+class Windows:
+    """A browser all of whose windows are watched for errors."""
+
+    def __init__(self, browser):
+        self.browser = browser
+        self.contexts = []
+        self.errors: list[str] = []
+
+    def new_context(self, **options):
+        context = self.browser.new_context(**options)
+        context.set_default_timeout(30_000)
+        context.on("weberror", lambda event: self.errors.append(str(event.error)))
+        context.on("console", lambda line: self.errors.extend(_error_text(line)))
+        self.contexts.append(context)
+        return context
+
+    def close(self):
+        for context in self.contexts:
+            with contextlib.suppress(Error):  # the browser may be gone already
+                context.close()
+
+
+@pytest.fixture
+def chromium(browser):
+    """The browser; an error on the console of any window fails the test."""
+    windows = Windows(browser)
+    yield windows
+    windows.close()
+    assert not windows.errors, windows.errors
 
 
 @pytest.fixture
 def page(chromium):
-    """A fresh window of 1280 x 720; an error on its console fails the test."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 720})
-    window = context.new_page()
-    window.set_default_timeout(30_000)
-    errors: list[str] = []
-    window.on("pageerror", lambda error: errors.append(str(error)))
-    window.on("console", lambda line: errors.extend(error_text(line)))
-    yield window
-    with contextlib.suppress(Error):  # the browser may be gone already
-        context.close()
-    assert not errors, errors
+    """A fresh window of 1280 x 720."""
+    return chromium.new_context(viewport={"width": 1280, "height": 720}).new_page()

@@ -110,7 +110,7 @@ def test_leaving_the_page_loses_nothing(page, app_url):
     page.get_by_role("link", name="Home").first.click()
     page.get_by_role("link", name="Build a map").first.click()
     page.wait_for_selector(f"{PLAYER}[data-step='99']")
-    assert page.locator("[data-slider=p_wall] output").inner_text() == "0.35"
+    assert page.locator("[data-slider=p_wall] .value").inner_text() == "0.35"
     assert counts(page) == before
 
 
@@ -133,10 +133,10 @@ def test_leaving_in_the_middle_of_a_replay_keeps_the_reading_that_was_shown(
 
 def test_reset_all_restores_the_preset(page, app_url):
     open_page(page, app_url, "?drawing=d&cell_px=7&p_wall=0.6")
-    assert page.locator("[data-slider=p_wall] output").inner_text() == "0.60"
+    assert page.locator("[data-slider=p_wall] .value").inner_text() == "0.60"
     page.get_by_role("button", name="Reset all").click()
     settled(page)
-    assert page.locator("[data-slider=p_wall] output").inner_text() == "0.20"
+    assert page.locator("[data-slider=p_wall] .value").inner_text() == "0.20"
     assert page.get_by_role("slider", name="Cell size").input_value() == "3"
     drawing = page.locator("[data-testid=stSelectbox]").filter(has_text="Drawing")
     assert "d: Offices" in drawing.inner_text() + drawing.locator("input").input_value()

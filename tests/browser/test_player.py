@@ -1,74 +1,29 @@
 """The map player in a real browser: its numbers are occsim's, its controls work."""
 
-from functools import cache
 from itertools import product
 
 import numpy as np
 import pytest
 
-from occsim import (
-    Prior,
-    Region,
-    Sensor,
-    UpdateRule,
-    collect_evidence,
-    fuse,
-    load_sample,
-    truth_cells,
-)
+from occsim import Prior, Region, UpdateRule, fuse
 from occsim.metrics import scores_by_reading
 from occsim.prior import prior_from_cells
-from occsim.world import wall_cells
+from tests.browser.players import (
+    CELL_PX,
+    ROOT,
+    choose,
+    inspect,
+    open_player,
+    point_of,
+    run,
+    scrub,
+    settled,
+    shown,
+    slide,
+    wait_until,
+)
 
 pytestmark = pytest.mark.browser
-
-CELL_PX = 3
-FOV_RAD = np.pi / 6
-ROOT = ".player"
-
-
-@cache
-def run():
-    """The run that the page shows first, by occsim: log, wall cells, truth."""
-    building = load_sample("a")
-    sensor = Sensor(range_px=building.sensor.range_px, fov_rad=FOV_RAD)
-    grid = building.world.grid(CELL_PX)
-    log = collect_evidence(building.world, building.trajectory, sensor, grid)
-    is_wall = wall_cells(building.wall_mask, grid)
-    return log, is_wall, truth_cells(building.world, grid)
-
-
-def open_player(page, app_url):
-    page.goto(f"{app_url}/Build_a_map?drawing=a")
-    page.wait_for_selector(f"{ROOT}[data-ready='1']")
-    return page.locator(ROOT)
-
-
-def shown(player, *names):
-    data = player.evaluate("root => ({...root.dataset})")
-    return [int(data[name]) for name in names]
-
-
-def scrub(player, step):
-    player.locator("[data-part=scrub]").fill(str(step))
-
-
-def slide(player, name, value):
-    player.locator(f"[data-slider={name}] input").fill(f"{value:.2f}")
-
-
-def choose(player, name, value):
-    player.locator(f"input[name={name}][value={value}]").check()
-
-
-def wait_until(page, player, condition):
-    page.wait_for_function(condition, arg=player.element_handle())
-
-
-def settled(page):
-    """Wait until the page has answered what the player committed."""
-    page.wait_for_timeout(600)
-    page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")
 
 
 @pytest.mark.parametrize(
@@ -103,10 +58,7 @@ def test_log_odds_are_those_of_occsim_after_walking_both_ways(page, app_url, rul
     prior_map = prior_from_cells(is_wall, log.grid, Prior(p_wall=0.2, p_space=0.9))
     for step in (300, 37, 212):
         scrub(player, step)
-        values = player.evaluate(
-            """root => Array.from({length: root.model.nCells},
-                 (_, c) => root.model.mapLogOdds(c))"""
-        )
+        values = inspect(player)["logOdds"]
         expected = fuse(log, prior_map, rule, n_readings=step).log_odds
         np.testing.assert_allclose(values, expected.ravel(), rtol=0, atol=1e-12)
 
@@ -121,6 +73,14 @@ def test_uninformative_prior_is_one_half_and_disables_the_sliders(page, app_url)
     assert shown(player, "tp", "fp", "fn", "tn") == [at.tp, at.fp, at.fn, at.tn]
     for name in ("p_wall", "p_space"):
         assert player.locator(f"[data-slider={name}] input").is_disabled()
+
+
+def test_a_slider_tells_the_probability_that_it_sets(page, app_url):
+    player = open_player(page, app_url)
+    slide(player, "p_wall", 0.35)
+    slide(player, "p_space", 0.8)
+    words = player.locator(".slider small").all_inner_texts()
+    assert words == ["p_free = 0.9 × 0.35 = 0.315", "p_free = 0.9 × 0.80 = 0.720"]
 
 
 def test_keys_step_jump_and_play(page, app_url):
@@ -162,47 +122,33 @@ def most_read_wall_cell():
     return int(counts.argmax())
 
 
-def cell_point(player, cell):
-    grid = run()[0].grid
-    box = player.locator("[data-pane=map] canvas").bounding_box()
-    row, col = divmod(cell, grid.n_cols)
-    scale = box["width"] / grid.width_px
-    half = CELL_PX / 2
-    return (
-        box["x"] + (col * CELL_PX + half) * scale,
-        box["y"] + (row * CELL_PX + half) * scale,
-    )
-
-
 def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
     """Under SUBTRACT_PRIOR reading k adds its log-odds less l_0, and they sum to l."""
     log, is_wall, _ = run()
     cell = most_read_wall_cell()
     player = open_player(page, app_url)
-    page.mouse.click(*cell_point(player, cell))
+    choose(player, "rule", UpdateRule.SUBTRACT_PRIOR.value)
+    page.mouse.click(*point_of(player, cell))
     scrub(player, log.n_readings)
     entries = np.flatnonzero(log.cell == cell)
     l_0 = np.log(0.18 / 0.82)
-    history = player.evaluate("(root, cell) => root.model.history(cell)", cell)
+    history = inspect(player)["history"]
     assert history["prior"] == pytest.approx(l_0, abs=1e-12)
     assert [t["reading"] for t in history["terms"]] == log.reading[entries].tolist()
     added = [term["added"] for term in history["terms"]]
     np.testing.assert_allclose(added, log.log_odds[entries] - l_0, atol=1e-12)
-    total = fuse(log, prior_from_cells(is_wall, log.grid, Prior())).log_odds.flat[cell]
+    prior_map = prior_from_cells(is_wall, log.grid, Prior())
+    total = fuse(log, prior_map, UpdateRule.SUBTRACT_PRIOR).log_odds.flat[cell]
     assert l_0 + sum(added) == pytest.approx(total, abs=1e-9)
     facts = player.locator("[data-part=cell-facts]").inner_text()
     assert f"{abs(total):.3f}" in facts
 
     first = int(log.reading[entries[0]])
-    bar = player.evaluate(
-        "root => root.player.inspector.terms.x(1) + "
-        "root.player.inspector.terms.canvas.getBoundingClientRect().left"
-    )
     box = player.locator("[data-part=terms]").bounding_box()
-    page.mouse.click(bar, box["y"] + 20)
+    page.mouse.click(box["x"] + inspect(player)["bars"][1], box["y"] + 20)
     assert shown(player, "step") == [first + 1]
     page.keyboard.press("Escape")
-    assert player.locator("[data-panel=scores]").is_visible()
+    assert player.locator("[data-part=scores]").is_visible()
 
 
 def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
@@ -210,14 +156,18 @@ def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
     cell = most_read_wall_cell()
     player = open_player(page, app_url)
     scrub(player, log.n_readings)
-    page.mouse.move(*cell_point(player, cell))
+    page.mouse.move(*point_of(player, cell))
     card = player.locator(".card")
     card.wait_for()
     text = card.inner_text()
     assert "wall cell" in text
     assert "0.180" in text
     assert str(int(log.totals()[1].flat[cell])) in text
-    assert player.evaluate("root => root.player.stage.hover") == cell
+    final = fuse(log, prior_from_cells(is_wall, log.grid, Prior())).log_odds.flat[cell]
+    assert f"declared\t{'wall' if final < -1e-9 else 'no wall'}" in text.replace(
+        "\n", "\t"
+    )
+    assert inspect(player)["hover"] == cell
 
 
 def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
@@ -225,11 +175,11 @@ def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
     player.locator("[data-pane=map] canvas").focus()
     before = shown(player, "step")
     page.keyboard.press("ArrowRight")
-    first = player.evaluate("root => root.player.stage.hover")
+    first = inspect(player)["hover"]
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     n_cols = run()[0].grid.n_cols
-    assert player.evaluate("root => root.player.stage.pin") == first + n_cols
+    assert inspect(player)["pin"] == first + n_cols
     assert shown(player, "step") == before
 
 
@@ -257,7 +207,7 @@ def test_another_cell_size_in_mid_play_stops_and_keeps_the_step(page, app_url):
     wait_until(page, player, "root => root.dataset.step > 105")
     slider = page.get_by_test_id("stSlider").filter(has_text="Cell size")
     slider.get_by_role("slider").press("ArrowRight")
-    wait_until(page, player, "root => root.model.cellPx === 4")
+    wait_until(page, player, "root => root.dataset.cellPx === '4'")
     (step,) = shown(player, "step")
     assert shown(player, "playing") == [0]
     assert step > 105
@@ -289,7 +239,134 @@ def test_a_hidden_player_waits_and_comes_back_whole(page, app_url):
     player.get_by_role("button", name="Play").click()
     before = player.locator("[data-pane=map] canvas").bounding_box()
     player.evaluate("root => { root.style.display = 'none'; }")
-    wait_until(page, player, "root => root.player.stage.scale === 0")
+    wait_until(page, player, "root => root.inspect().scale === 0")
     player.evaluate("root => { root.style.display = ''; }")
-    wait_until(page, player, "root => root.player.stage.scale > 0")
+    wait_until(page, player, "root => root.inspect().scale > 0")
     assert player.locator("[data-pane=map] canvas").bounding_box() == before
+
+
+REPLAY_SETTINGS = {
+    "cell_px": ("Cell size", "ArrowRight"),
+    "range_px": ("Range", "ArrowRight"),
+    "fov_deg": ("Field of view", "ArrowRight"),
+    "behind_hit": ("Unseen", None),
+    "clear_no_hit": ("A ray that meets nothing", None),
+    "wall_share": ("Wall share of the prior", "End"),
+    "truth_share": ("Wall share of the ground truth", "End"),
+}
+"""What sends the player another replay: label on the page, key or click."""
+
+
+def change(page, player, name):
+    """Change a setting of the page by hand; wait for the replay that follows."""
+    label, key = REPLAY_SETTINGS[name]
+    before = player.evaluate("root => root.player.header.digest")
+    is_hidden = name not in ("cell_px", "range_px", "fov_deg")
+    if is_hidden:
+        page.get_by_role("button", name="More settings").click()
+    if key:
+        slider = page.get_by_test_id("stSlider").filter(has_text=label)
+        slider.get_by_role("slider").press(key)
+    else:
+        page.get_by_text(label).first.click()
+    page.wait_for_function(
+        "([root, before]) => root.player.header.digest !== before",
+        arg=[player.element_handle(), before],
+    )
+    if is_hidden:
+        page.keyboard.press("Escape")
+    settled(page)
+
+
+@pytest.mark.parametrize("name", REPLAY_SETTINGS)
+def test_a_pinned_cell_outlives_a_change_of_each_setting(page, app_url, name):
+    """The pin stays on the same point of the drawing; map, play and scrub go on."""
+    log, _, _ = run()
+    player = open_player(page, app_url)
+    cell = log.grid.n_cells - 2
+    page.mouse.click(*point_of(player, cell))
+    scrub(player, 200)
+    settled(page)
+    change(page, player, name)
+    now = run(CELL_PX + 1)[0].grid if name == "cell_px" else log.grid
+    row, col = divmod(cell, log.grid.n_cols)
+    x, y = (col + 0.5) * CELL_PX, (row + 0.5) * CELL_PX
+    pinned = int(y // now.cell_px) * now.n_cols + int(x // now.cell_px)
+    assert inspect(player)["pin"] == pinned
+    row, col = divmod(pinned, now.n_cols)
+    title = player.locator("[data-part=cell-name]").inner_text()
+    assert title == f"Cell row {row}, column {col}"
+    assert shown(player, "step") == [200]
+    scrub(player, 10)
+    player.get_by_role("button", name="Play").click()
+    wait_until(page, player, "root => root.dataset.step > 12")
+
+
+def test_the_numbers_shown_after_a_change_of_cell_size_are_the_new_ones(page, app_url):
+    """A restored player scores and draws the new data, not what it held before."""
+    player = open_player(page, app_url)
+    page.mouse.click(*point_of(player, most_read_wall_cell()))
+    scrub(player, 200)
+    settled(page)
+    change(page, player, "cell_px")
+    log, is_wall, truth = run(CELL_PX + 1)
+    prior_map = prior_from_cells(is_wall, log.grid, Prior())
+    at = scores_by_reading(log, prior_map, truth, UpdateRule.PRIOR_ONCE).at(200)
+    assert shown(player, "tp", "fp", "fn", "tn") == [at.tp, at.fp, at.fn, at.tn]
+
+
+COUNT_WHAT_IS_HEARD = """root => {
+  root.heard = [];
+  const live = "output, [role=status], [role=alert], [aria-live]:not([aria-live=off])";
+  for (const region of root.querySelectorAll(live)) {
+    new MutationObserver(() => root.heard.push(region.textContent)).observe(
+      region, { childList: true, characterData: true, subtree: true });
+  }
+}"""
+
+
+def test_a_screen_reader_hears_the_scores_when_the_replay_pauses(page, app_url):
+    player = open_player(page, app_url)
+    player.evaluate(COUNT_WHAT_IS_HEARD)
+    player.get_by_role("button", name="Play").click()
+    (step,) = shown(player, "step")
+    wait_until(page, player, f"root => root.dataset.step > {step + 10}")
+    assert player.evaluate("root => root.heard") == []
+    player.get_by_role("button", name="Pause").click()
+    wait_until(page, player, "root => root.heard.length")
+    (words,) = player.evaluate("root => root.heard")
+    (step,) = shown(player, "step")
+    recall = player.locator("[data-score=recall] .value").inner_text()
+    assert words.startswith(f"reading {step} of {run()[0].n_readings}: ")
+    assert f"Recall {recall}" in words
+
+
+def test_a_screen_reader_hears_the_pinned_cell(page, app_url):
+    player = open_player(page, app_url)
+    player.evaluate(COUNT_WHAT_IS_HEARD)
+    player.locator("[data-pane=map] canvas").focus()
+    page.keyboard.press("ArrowRight")
+    (hovered,) = player.evaluate("root => root.heard")
+    page.keyboard.press("Enter")
+    wait_until(page, player, "root => root.heard.length > 1")
+    *_, pinned = player.evaluate("root => root.heard")
+    n_cols = run()[0].grid.n_cols
+    row, col = divmod(inspect(player)["pin"], n_cols)
+    for words in (hovered, pinned):
+        assert f"Cell row {row}, column {col}: class " in words
+        assert "p_free 0." in words
+
+
+def test_a_document_imposed_in_mid_play_stops_the_replay(page, app_url):
+    player = open_player(page, app_url)
+    (rev,) = shown(player, "rev")
+    slide(player, "p_wall", 0.5)
+    settled(page)
+    player.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Reset all").click()
+    wait_until(page, player, f"root => root.dataset.rev > {rev}")
+    (step,) = shown(player, "step")
+    assert shown(player, "playing") == [0]
+    settled(page)
+    assert shown(player, "step") == [step]
+    assert player.evaluate("root => root.dataset.pWall") == "0.2"

@@ -12,7 +12,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from tests.mutate.kept import MUTATIONS, Mutation
+from tests.mutate.kept import MUTATIONS
+from tests.mutate.mutation import Mutation
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT_S = 600

@@ -38,17 +38,21 @@ def keep_state() -> None:
     """Do nothing: Streamlit keeps a state value only if there is a callback for it."""
 
 
+def script_paths(folder: Path, scripts: tuple[str, ...]) -> tuple[Path, ...]:
+    """The scripts of a component in the order in which they are joined."""
+    shared = (SHARED / name for name in SHARED_SCRIPTS)
+    return (*shared, *(folder / name for name in scripts))
+
+
 @cache
 def _sources(folder: Path, scripts: tuple[str, ...]) -> dict[str, str]:
-    """The texts of a component; the scripts joined in order into one module."""
+    """The texts of a component; the scripts joined into one module."""
 
-    def text(path: Path) -> str:
-        return path.read_text(encoding="utf-8")
+    def text(*paths: Path) -> str:
+        return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
-    shared = [SHARED / name for name in SHARED_SCRIPTS]
-    own = [folder / name for name in scripts]
     return {
         "html": text(folder / f"{folder.name}.html"),
-        "css": text(SHARED / "shared.css") + text(folder / f"{folder.name}.css"),
-        "js": "\n".join(text(path) for path in (*shared, *own)),
+        "css": text(SHARED / "shared.css", folder / f"{folder.name}.css"),
+        "js": text(*script_paths(folder, scripts)),
     }

@@ -12,6 +12,7 @@ from pathlib import Path
 from pages._ui.components import component
 
 FOLDER = Path(__file__).parent
+SCRIPTS = ("address.js",)
 COMPONENT = "address"
 
 
@@ -44,4 +45,4 @@ def address(
         "unsaved": unsaved,
         "hasButton": has_button,
     }
-    component(COMPONENT, FOLDER, ("address.js",))(key=key, data=json.dumps(data))
+    component(COMPONENT, FOLDER, SCRIPTS)(key=key, data=json.dumps(data))

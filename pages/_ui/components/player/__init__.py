@@ -24,10 +24,13 @@ from pages._ui.settings import TABLE, Settings, with_changes
 FOLDER = Path(__file__).parent
 SCRIPTS = (
     "text.js",
+    "replay.js",
     "model.js",
     "cells.js",
     "stage.js",
-    "charts.js",
+    "draw.js",
+    "curves.js",
+    "terms.js",
     "playback.js",
     "controls.js",
     "inspector.js",
@@ -74,7 +77,7 @@ class PlayerDocument:
     p_wall: float = 0.2
     p_space: float = 0.9
     uninformative: bool = False
-    rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
+    rule: UpdateRule = UpdateRule.PRIOR_ONCE
     region: Region = Region.EXPLORED
     overlay: Overlay = Overlay.NONE
     step: int = 0

@@ -1,94 +1,78 @@
 // The prior, the update rule, what the map shows and which cells are scored.
 
-const SLIDERS = ["p_wall", "p_space"];
+const SLIDERS = { p_space: 0, p_wall: 1 }; // with the class of their cells
+const OPTIONS = { rule: "rules", overlay: "overlays", region: "regions" };
 
-class Controls {
-  constructor(player) {
-    this.player = player;
-    this.root = player.root;
-    this.listen();
-  }
+const sliderOf = (p, name) => p.root.querySelector(`[data-slider=${name}]`);
 
-  slider(name) {
-    return this.root.querySelector(`[data-slider=${name}] input`);
-  }
-
-  listen() {
-    const { player } = this;
-    for (const name of SLIDERS) {
-      const input = this.slider(name);
-      input.addEventListener("input", () => {
-        player.state[name] = Number(input.value);
-        player.recolour();
-      });
-      input.addEventListener("change", () => player.commit(COMMIT_DELAY));
-    }
-    player.part("uninformative").addEventListener("change", (event) => {
-      this.choose("uninformative", event.target.checked);
+function buildControls(p, { texts, limits }) {
+  for (const name of Object.keys(SLIDERS)) {
+    const input = sliderOf(p, name).querySelector("input");
+    Object.assign(input, limits[name]);
+    input.addEventListener("input", () => {
+      p.state[name] = Number(input.value);
+      recolour(p);
     });
+    input.addEventListener("change", () => commit(p, COMMIT_DELAY));
   }
-
-  choose(name, value) {
-    this.player.state[name] = value;
-    this.player.recolour();
-    this.player.commit();
+  partOf(p.root, "uninformative").addEventListener("change", (event) => {
+    choose(p, "uninformative", event.target.checked);
+  });
+  for (const [name, part] of Object.entries(OPTIONS)) {
+    const options = texts[part].map((option) => radio(p, name, option));
+    partOf(p.root, part).append(...options);
   }
+}
 
-  build({ texts, limits }) {
-    this.texts = texts;
-    const fill = (part, name, options) => {
-      const choices = options.map((o) => radio(name, o, (v) => this.choose(name, v)));
-      this.player.part(part).append(...choices);
-    };
-    fill("rules", "rule", texts.rules);
-    fill("overlays", "overlay", texts.overlays);
-    fill("regions", "region", texts.regions);
-    for (const name of SLIDERS) Object.assign(this.slider(name), limits[name]);
-  }
+function radio(p, name, { value, label, about }) {
+  const input = element("input", { type: "radio", name, value });
+  input.addEventListener("change", () => choose(p, name, value));
+  const words = element("span", {}, label);
+  if (about) words.append(element("small", {}, about));
+  return element("label", {}, input, words);
+}
 
-  restore() {
-    const { state } = this.player;
-    for (const name of ["rule", "overlay", "region"]) {
-      for (const input of this.root.querySelectorAll(`input[name=${name}]`)) {
-        input.checked = input.value === state[name];
-      }
+function choose(p, name, value) {
+  p.state[name] = value;
+  recolour(p);
+  commit(p);
+}
+
+function showControls(p) {
+  const { root, state } = p;
+  for (const name of Object.keys(OPTIONS)) {
+    for (const input of root.querySelectorAll(`input[name=${name}]`)) {
+      input.checked = input.value === state[name];
     }
-    for (const name of SLIDERS) this.slider(name).value = state[name];
-    this.player.part("uninformative").checked = state.uninformative;
   }
+  partOf(root, "uninformative").checked = state.uninformative;
+  for (const name of Object.keys(SLIDERS)) showSlider(p, name);
+  const keys = state.overlay === "errors" ? errorKeys(p) : beliefKeys(p);
+  partOf(root, "map-legend").replaceChildren(...keys);
+}
 
-  show() {
-    for (const name of SLIDERS) this.showPrior(name);
-    this.showLegend();
-  }
+function showSlider(p, name) {
+  const { uninformative } = p.state;
+  const box = sliderOf(p, name);
+  const pFree = p.model.pFreePrior[SLIDERS[name]];
+  const chosen = p.state[name].toFixed(2);
+  const factors = `${p.model.priorScale} \u00d7 ${chosen} = ${pFree.toFixed(3)}`;
+  Object.assign(box.querySelector("input"), { value: p.state[name], disabled: uninformative });
+  box.classList.toggle("off", uninformative);
+  box.querySelector(".value").textContent = chosen;
+  box.querySelector("small").textContent = `p_free = ${uninformative ? pFree : factors}`;
+}
 
-  showPrior(name) {
-    const { state, model } = this.player;
-    const box = this.root.querySelector(`[data-slider=${name}]`);
-    const p = model.pFreePrior[name === "p_wall" ? 1 : 0];
-    const chosen = state[name].toFixed(2);
-    this.slider(name).disabled = state.uninformative;
-    box.classList.toggle("off", state.uninformative);
-    box.querySelector("output").textContent = chosen;
-    box.querySelector("small").textContent = state.uninformative
-      ? `p_free = ${p}`
-      : `p_free = ${model.scale} \u00d7 ${chosen} = ${p.toFixed(3)}`;
-  }
+const legendKey = (mark, label) =>
+  element("span", { class: "key" }, element("i", { class: `mark-${mark}` }), label);
 
-  showLegend() {
-    const { overlay } = this.player.state;
-    const key = (mark, label) =>
-      element("span", { class: "key" }, element("i", { class: `mark-${mark}` }), label);
-    const keys = [];
-    if (overlay === "errors") {
-      keys.push(...this.texts.errors.map(({ mark, label }) => key(mark, label)));
-    } else {
-      const shown = this.texts.overlays.find(({ value }) => value === overlay);
-      if (overlay !== "none") keys.push(key(overlay, shown.label));
-      const ramp = key("ramp", "1");
-      ramp.prepend("p_free 0");
-      keys.push(ramp);
-    }
-    this.player.part("map-legend").replaceChildren(...keys);
-  }
+const errorKeys = ({ header }) =>
+  header.texts.errors.map(({ mark, label }) => legendKey(mark, label));
+
+function beliefKeys({ header, state: { overlay } }) {
+  const ramp = legendKey("ramp", "1");
+  ramp.prepend("p_free 0");
+  if (overlay === "none") return [ramp];
+  const { label } = header.texts.overlays.find(({ value }) => value === overlay);
+  return [legendKey(overlay, label), ramp];
 }

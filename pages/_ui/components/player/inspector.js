@@ -1,212 +1,180 @@
 // One cell: hover tells its numbers, a click pins it and shows its readings one by one.
 
-class Inspector {
-  constructor(player) {
-    this.player = player;
-    this.root = player.root;
-    this.card = this.root.querySelector(".card");
-    this.terms = new TermsChart(player.part("terms"));
-    this.tab = "scores";
-    this.listen();
-  }
-
-  get stage() {
-    return this.player.stage;
-  }
-
-  get model() {
-    return this.player.model;
-  }
-
-  listen() {
-    for (const canvas of this.root.querySelectorAll(".pane canvas")) {
-      canvas.addEventListener("pointermove", (event) => this.pointAt(event));
-      canvas.addEventListener("pointerleave", () => this.leave());
-      canvas.addEventListener("blur", () => this.leave());
-      canvas.addEventListener("click", (event) => this.clickAt(event));
-    }
-    for (const tab of this.root.querySelectorAll("[data-tab]")) {
-      tab.addEventListener("click", () => this.showTab(tab.dataset.tab));
-    }
-    const { canvas } = this.terms;
-    canvas.addEventListener("click", (event) => {
-      const bar = this.terms.barAt(event);
-      if (bar) this.player.walkTo(bar.term ? bar.term.reading + 1 : 0);
+function listenToCells(p) {
+  for (const canvas of Object.values(p.canvases)) {
+    canvas.addEventListener("pointermove", (event) => {
+      const cell = isInert(p) || event.pointerType === "touch" ? null : cellAt(p, event);
+      if (cell !== null) hoverOn(p, cell, event);
     });
-    canvas.addEventListener("pointermove", (event) => this.pointAtTerm(event));
-    canvas.addEventListener("pointerleave", () => this.hideCard());
+    canvas.addEventListener("pointerleave", () => leaveCell(p));
+    canvas.addEventListener("blur", () => leaveCell(p));
+    canvas.addEventListener("click", (event) => {
+      p.root.focus({ preventScroll: true });
+      const cell = isInert(p) ? null : cellAt(p, event);
+      if (cell !== null) togglePin(p, cell);
+    });
   }
-
-  get inert() {
-    return !this.model || this.player.state.compact;
+  for (const tab of p.root.querySelectorAll("[data-tab]")) {
+    tab.addEventListener("click", () => openTab(p, tab.dataset.tab));
   }
+  listenToTerms(p, partOf(p.root, "terms"));
+}
 
-  // ---- hovering --------------------------------------------------------------------
+function listenToTerms(p, canvas) {
+  canvas.addEventListener("click", (event) => {
+    const bar = barAt(p.terms, event);
+    if (bar) walkTo(p, bar.term ? bar.term.reading + 1 : 0);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const bar = barAt(p.terms, event);
+    if (bar) showCard(p, event, ...termCard(p, bar));
+    else hideCard(p);
+  });
+  canvas.addEventListener("pointerleave", () => hideCard(p));
+}
 
-  pointAt(event) {
-    if (this.inert || event.pointerType === "touch") return;
-    const cell = this.stage.cellAt(event);
-    if (cell !== null) this.hover(cell, event);
-  }
+const isInert = (p) => !p.model || p.state.compact;
 
-  hover(cell, point) {
-    const moved = cell !== this.stage.hover;
-    this.stage.hover = cell;
-    if (moved) this.stage.draw();
-    this.showCard(point, this.title(cell), this.facts(cell));
-  }
+// ---- hovering ------------------------------------------------------------------------
 
-  leave() {
-    if (this.inert) return;
-    this.hideCard();
-    this.stage.hover = null;
-    this.stage.draw();
-  }
+function hoverOn(p, cell, point) {
+  const isNew = cell !== p.hover;
+  p.hover = cell;
+  if (isNew) drawStage(p);
+  showCard(p, point, cellTitle(p.model, cell), cellFacts(p.model, cell));
+}
 
-  // On the map canvas, reached by Tab, arrows walk from cell to cell and Enter pins.
-  // Returns whether the key was one of these.
-  onKey(event) {
-    const { stage, model } = this;
-    const { nCols, nCells } = model;
-    const moves = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -nCols, ArrowDown: nCols };
-    const from = stage.hover ?? stage.pin ?? Math.floor(nCells / 2);
-    if (event.key === "Enter") {
-      this.pin(from);
-      return true;
-    }
-    const move = moves[event.key];
-    if (move === undefined) return false;
-    const to = from + move;
-    const row = (c) => Math.floor(c / nCols);
-    const leavesRow = Math.abs(move) === 1 && row(to) !== row(from);
-    if (to >= 0 && to < nCells && !leavesRow) this.hover(to, stage.pointAt(to));
+function leaveCell(p) {
+  hideCard(p);
+  if (p.hover === null) return;
+  p.hover = null;
+  drawStage(p);
+}
+
+// On the map canvas, reached by Tab, arrows walk from cell to cell and Enter pins.
+// Returns whether the key was one of these.
+function cellKey(p, { key }) {
+  const { nCols, nCells } = p.model;
+  const from = p.hover ?? p.pin ?? Math.floor(nCells / 2);
+  if (key === "Enter") {
+    togglePin(p, from);
     return true;
   }
-
-  // ---- pinning ---------------------------------------------------------------------
-
-  clickAt(event) {
-    this.root.focus({ preventScroll: true });
-    if (this.inert) return;
-    const cell = this.stage.cellAt(event);
-    if (cell !== null) this.pin(cell);
+  const move = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -nCols, ArrowDown: nCols }[key];
+  if (!move) return false;
+  const to = from + move;
+  const leavesRow = Math.abs(move) === 1 && Math.floor(to / nCols) !== Math.floor(from / nCols);
+  if (to >= 0 && to < nCells && !leavesRow) {
+    hoverOn(p, to, pointAt(p, to));
+    say(p, cellWords(p.model, to));
   }
+  return true;
+}
 
-  // Pinning the pinned cell again unpins it.
-  pin(cell) {
-    this.setPin(cell === this.stage.pin ? null : cell);
-  }
+// ---- pinning -------------------------------------------------------------------------
 
-  unpin() {
-    if (this.stage.pin !== null) this.setPin(null);
-  }
+// Pinning the pinned cell again unpins it.
+function togglePin(p, cell) {
+  setPin(p, cell === p.pin ? null : cell);
+}
 
-  // The pin is kept in px of the drawing, so that it survives another cell size.
-  setPin(cell) {
-    const { stage, player } = this;
-    stage.pin = cell;
-    player.state.pin_px = cell === null ? null : stage.centre(cell);
-    stage.draw();
-    this.showTab(cell === null ? "scores" : "cell");
-    player.commit(COMMIT_DELAY);
-  }
+function unpin(p) {
+  if (p.pin !== null) setPin(p, null);
+}
 
-  restore() {
-    const point = this.player.state.pin_px;
-    this.stage.pin = point ? this.stage.cellHolding(...point) : null;
-    if (this.stage.pin !== null) this.showTab("cell");
-  }
+// The pin is kept in px of the drawing, so that it survives another cell size.
+function setPin(p, cell) {
+  p.pin = cell;
+  p.state.pin_px = cell === null ? null : centreOf(p.model, cell);
+  openTab(p, cell === null ? "scores" : "cell");
+  commit(p, COMMIT_DELAY);
+}
 
-  // ---- what is told of a cell --------------------------------------------------------
+function openTab(p, name) {
+  p.tab = name;
+  refresh(p);
+}
 
-  title(c) {
-    const { nCols } = this.model;
-    return `Cell row ${Math.floor(c / nCols)}, column ${c % nCols}`;
-  }
+// ---- what is told of a cell ------------------------------------------------------------
 
-  facts(c) {
-    const { model } = this;
-    const l = model.mapLogOdds(c);
+function cellTitle(model, c) {
+  const [row, column] = placeOf(model, c);
+  return `Cell row ${row}, column ${column}`;
+}
+
+function cellFacts(model, c) {
+  const logOdds = logOddsAt(model, c);
+  return [
+    ["class", model.isWall[c] ? "wall cell" : "space cell"],
+    ["truth", model.truth[c] ? "wall" : "free"],
+    ["prior p_free", model.pFreePrior[model.isWall[c]].toFixed(3)],
+    ["readings k", String(model.counts[c])],
+    ["log-odds l", signed(logOdds, 3)],
+    ["declared", declaresWall(model, logOdds) ? "wall" : "no wall"],
+    ["p_free", probability(pFreeOf(logOdds))],
+    ["p_occupied", probability(pFreeOf(-logOdds))],
+  ];
+}
+
+function cellWords(model, c) {
+  const facts = cellFacts(model, c).map((fact) => fact.join(" "));
+  return `${cellTitle(model, c)}: ${facts.join(", ")}`;
+}
+
+function termCard({ model, pin }, { term, to }) {
+  if (!term)
     return [
-      ["class", model.isWall[c] ? "wall cell" : "space cell"],
-      ["truth", model.truth[c] ? "wall" : "free"],
-      ["prior p_free", model.pFreePrior[model.isWall[c]].toFixed(3)],
-      ["readings k", String(model.counts[c])],
-      ["log-odds l", signed(l, 3)],
-      ["declared", model.isOccupied(c) ? "wall" : "no wall"],
-      ["p_free", probability(pFreeOf(l))],
-      ["p_occupied", probability(pFreeOf(-l))],
-    ];
-  }
-
-  showTab(name) {
-    this.tab = name;
-    for (const tab of this.root.querySelectorAll("[data-tab]")) {
-      tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
-    }
-    for (const panel of this.root.querySelectorAll("[data-panel]")) {
-      panel.hidden = panel.dataset.panel !== name;
-    }
-    this.player.part("regions").hidden = name !== "scores";
-    this.player.part("axis-name").hidden = name !== "cell";
-    this.player.refresh();
-  }
-
-  show() {
-    const { pin } = this.stage;
-    const panel = this.root.querySelector("[data-panel=cell]");
-    panel.dataset.pinned = pin === null ? "0" : "1";
-    if (pin === null) return;
-    this.player.part("cell-name").textContent = this.title(pin);
-    this.player.part("cell-facts").replaceChildren(...rows(this.facts(pin)));
-    const history = this.model.history(pin);
-    this.terms.draw(history, this.player.state.step, this.player.ink);
-  }
-
-  // ---- the terms of the pinned cell --------------------------------------------------
-
-  pointAtTerm(event) {
-    const bar = this.terms.barAt(event);
-    if (bar) this.showCard(event, ...this.termCard(bar));
-    else this.hideCard();
-  }
-
-  termCard({ term, to }) {
-    if (!term) {
-      const prior = [
+      "Prior",
+      [
         ["l_0", signed(to, 3)],
         ["p_free", probability(pFreeOf(to))],
-      ];
-      return ["Prior", prior];
-    }
-    const l0 = this.model.logOddsPrior[this.model.isWall[this.stage.pin]];
-    const less = this.model.once ? [] : [["less l_0", signed(-l0, 3)]];
-    const facts = [
-      ["p_free(reading)", probability(pFreeOf(term.said))],
-      ["its log-odds", signed(term.said, 3)],
-      ...less,
-      ["adds", signed(term.added, 3)],
-      ["then l", signed(term.total, 3)],
+      ],
     ];
-    return [`Reading ${term.reading + 1}`, facts];
-  }
+  const facts = [
+    ["p_free(reading)", probability(pFreeOf(term.said))],
+    ["its log-odds", signed(term.said, 3)],
+    ["adds", signed(term.added, 3)],
+    ["then l", signed(term.total, 3)],
+  ];
+  if (!model.once) facts.splice(2, 0, ["less l_0", signed(-priorOf(model, pin), 3)]);
+  return [`Reading ${term.reading + 1}`, facts];
+}
 
-  // ---- the card at the pointer -------------------------------------------------------
-
-  showCard(point, title, facts) {
-    const { card } = this;
-    card.replaceChildren(element("b", {}, title), element("dl", {}, ...rows(facts)));
-    card.hidden = false;
-    const box = this.root.getBoundingClientRect();
-    const x = point.clientX - box.left;
-    const y = point.clientY - box.top;
-    const { offsetWidth: width, offsetHeight: height } = card;
-    const left = x + 18 + width < box.width ? x + 18 : x - 18 - width;
-    const top = y + 14 + height < box.height ? y + 14 : y - 14 - height;
-    card.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
+function showTab(p) {
+  const { root, pin, tab } = p;
+  for (const button of root.querySelectorAll("[data-tab]")) {
+    button.setAttribute("aria-selected", String(button.dataset.tab === tab));
   }
-
-  hideCard() {
-    this.card.hidden = true;
+  for (const panel of root.querySelectorAll("[data-panel]")) {
+    panel.hidden = panel.dataset.panel !== tab;
   }
+  root.dataset.pinned = pin === null ? "0" : "1";
+  if (tab === "scores") showScores(p);
+  else if (pin !== null) showPinned(p);
+}
+
+function showPinned(p) {
+  partOf(p.root, "cell-name").textContent = cellTitle(p.model, p.pin);
+  partOf(p.root, "cell-facts").replaceChildren(...rows(cellFacts(p.model, p.pin)));
+  showTerms(p);
+}
+
+const rows = (facts) =>
+  facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
+
+// ---- the card at the pointer -----------------------------------------------------------
+
+function showCard({ root, card }, point, title, facts) {
+  card.replaceChildren(element("b", {}, title), element("dl", {}, ...rows(facts)));
+  card.hidden = false;
+  const box = root.getBoundingClientRect();
+  const { offsetWidth: width, offsetHeight: height } = card;
+  const [x, y] = [point.clientX - box.left, point.clientY - box.top];
+  const left = x + 18 + width < box.width ? x + 18 : x - 18 - width;
+  const top = y + 14 + height < box.height ? y + 14 : y - 14 - height;
+  card.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, top)}px)`;
+}
+
+function hideCard({ card }) {
+  card.hidden = true;
 }

@@ -1,104 +1,107 @@
-// Transport: the replay in time, its buttons, the scrubber and the speed.
+// The replay in time: play and pause, steps by hand, the scrubber and the speed.
 
 const LOOP_PAUSE = 1.6; // s at the end of a compact replay
+const FRAME_MAX = 0.1; // s; a page that slept goes on where it was
+const REPLAY_SECONDS = 10; // what a replay lasts unless a speed was chosen
 
-class Playback {
-  constructor(player) {
-    this.player = player;
-    this.root = player.root;
-    this.playing = false;
-    this.position = 0; // readings, with a fraction while playing
-    this.listen();
-  }
+function listenToTransport(p) {
+  const scrub = partOf(p.root, "scrub");
+  scrub.addEventListener("input", () => {
+    pause(p);
+    goTo(p, Number(scrub.value));
+  });
+  scrub.addEventListener("change", () => commit(p, COMMIT_DELAY));
+  partOf(p.root, "speed").addEventListener("change", (event) => {
+    p.state.speed = Number(event.target.value);
+    commit(p);
+  });
+}
 
-  listen() {
-    const { player } = this;
-    const scrub = player.part("scrub");
-    scrub.addEventListener("input", () => {
-      this.pause(false);
-      player.goTo(Number(scrub.value));
-    });
-    scrub.addEventListener("change", () => player.commit(COMMIT_DELAY));
-    player.part("speed").addEventListener("change", (event) => {
-      player.state.speed = Number(event.target.value);
-      player.commit();
-    });
-  }
+function buildSpeeds(p, speeds) {
+  const option = (value) => element("option", { value }, `${value} readings/s`);
+  partOf(p.root, "speed").replaceChildren(...speeds.map(option));
+}
 
-  offerSpeeds(speeds) {
-    this.speeds = speeds;
-    const options = speeds.map((v) =>
-      element("option", { value: v }, `${v} readings/s`),
-    );
-    this.player.part("speed").replaceChildren(...options);
-  }
+// The speed at which a replay lasts nearest to what it should.
+function usualSpeed(speeds, nReadings) {
+  const away = (speed) => Math.abs(speed - nReadings / REPLAY_SECONDS);
+  return speeds.reduce((best, speed) => (away(speed) < away(best) ? speed : best));
+}
 
-  restore() {
-    const { state, model } = this.player;
-    // Unless told otherwise, a replay lasts about ten seconds.
-    const wanted = model.nReadings / 10;
-    state.speed ??= this.speeds.reduce((best, v) =>
-      Math.abs(v - wanted) < Math.abs(best - wanted) ? v : best,
-    );
-    this.position = state.step;
-    this.player.part("scrub").max = model.nReadings;
-    this.player.part("speed").value = state.speed;
-  }
+function play(p) {
+  if (p.playing || !p.model) return;
+  if (p.state.step >= p.model.nReadings) goTo(p, 0);
+  p.position = p.state.step;
+  p.playing = true;
+  showPlaying(p);
+  let then = performance.now();
+  const tick = (now) => {
+    if (!p.playing) return;
+    advance(p, clamp((now - then) / 1000, 0, FRAME_MAX));
+    then = now;
+    p.frame = requestAnimationFrame(tick);
+  };
+  p.frame = requestAnimationFrame(tick);
+}
 
-  play() {
-    const { player } = this;
-    if (this.playing || !player.model) return;
-    if (player.state.step >= player.model.nReadings) player.goTo(0);
-    this.position = player.state.step;
-    this.playing = true;
-    this.showPlaying();
-    let then = performance.now();
-    const tick = (now) => {
-      if (!this.playing) return;
-      // A page that slept goes on where it was, not where it would have been.
-      this.advance(Math.max(0, Math.min(0.1, (now - then) / 1000)));
-      then = now;
-      this.frame = requestAnimationFrame(tick);
-    };
-    this.frame = requestAnimationFrame(tick);
+// The position counts readings, with a fraction; past the end it counts the pause.
+function advance(p, seconds) {
+  const { speed, compact } = p.state;
+  const last = p.model.nReadings;
+  p.position += seconds * speed;
+  goTo(p, Math.floor(p.position), p.position);
+  if (p.position < last) return;
+  if (compact) {
+    if (p.position > last + LOOP_PAUSE * speed) goTo(p, 0);
+  } else {
+    pause(p);
+    commit(p);
   }
+}
 
-  advance(seconds) {
-    const { state, model } = this.player;
-    const last = model.nReadings;
-    this.position += seconds * state.speed;
-    this.player.goTo(Math.min(last, Math.floor(this.position)), this.position);
-    if (this.position < last) return;
-    if (!state.compact) this.pause();
-    else if (this.position > last + LOOP_PAUSE * state.speed) this.player.goTo(0);
-  }
+// Returns whether it was playing.
+function pause(p) {
+  if (!p.playing) return false;
+  p.playing = false;
+  cancelAnimationFrame(p.frame);
+  showPlaying(p);
+  return true;
+}
 
-  pause(tell = true) {
-    if (!this.playing) return;
-    this.playing = false;
-    cancelAnimationFrame(this.frame);
-    this.showPlaying();
-    if (tell) this.player.commit();
-  }
+function togglePlay(p) {
+  if (pause(p)) commit(p);
+  else play(p);
+}
 
-  toggle() {
-    if (this.playing) this.pause();
-    else this.play();
-  }
+// A step by hand: stops the replay, and Python hears of it.
+function walkTo(p, step) {
+  pause(p);
+  goTo(p, step);
+  commit(p, COMMIT_DELAY);
+}
 
-  showPlaying() {
-    const button = this.root.querySelector("[data-do=play]");
-    button.setAttribute("aria-label", this.playing ? "Pause" : "Play");
-    this.root.dataset.playing = this.playing ? "1" : "0";
-  }
+function goTo(p, step, position = step) {
+  const target = clamp(step, 0, p.model.nReadings);
+  p.position = position;
+  if (target === p.model.step) return;
+  p.state.step = target;
+  paintEntries(p.picture, p.model, seek(p.model, target));
+  refresh(p);
+}
 
-  show() {
-    const { state, model } = this.player;
-    const words = `reading ${state.step} of ${model.nReadings}`;
-    const scrub = this.player.part("scrub");
-    scrub.value = state.step;
-    scrub.style.setProperty("--done", `${(100 * state.step) / model.nReadings}%`);
-    scrub.setAttribute("aria-valuetext", words);
-    this.player.part("counter").textContent = words;
-  }
+function showPlaying({ root, playing }) {
+  const button = root.querySelector("[data-do=play]");
+  button.setAttribute("aria-label", playing ? "Pause" : "Play");
+  root.dataset.playing = playing ? "1" : "0";
+}
+
+const stepWords = ({ state, model }) => `reading ${state.step} of ${model.nReadings}`;
+
+function showStep(p) {
+  const { step } = p.state;
+  const scrub = partOf(p.root, "scrub");
+  scrub.value = step;
+  scrub.style.setProperty("--done", `${(100 * step) / p.model.nReadings}%`);
+  scrub.setAttribute("aria-valuetext", stepWords(p));
+  partOf(p.root, "counter").textContent = stepWords(p);
 }

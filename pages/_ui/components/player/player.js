@@ -1,302 +1,248 @@
-// Wiring: what the student does, what is drawn again, and what Python hears of it.
+// The map player: what the student does, what is drawn again, what Python hears of it.
 //
 // Python owns a document {rev, ...}. The player takes it over when it starts or when rev
-// changes; from then on the student's hand rules, and every commit echoes rev.
+// changes; from then on the student's choices rule, and every commit echoes rev.
+
+const COMMIT_DELAY = 350; // ms; keys held down are one commit
 
 // By key: what a player that the page unmounted showed, and what Python knows of it.
 const remembered = new Map();
 
-class Player {
-  constructor(root) {
-    this.root = root;
-    this.model = null;
-    this.load = 0;
-    this.tiles = [];
-    this.playback = new Playback(this);
-    this.controls = new Controls(this);
-    this.inspector = new Inspector(this);
-    this.listen();
-    this.observer = new ResizeObserver(() => this.resize());
-    this.observer.observe(root);
-  }
+export default function ({ data, parentElement, setStateValue }) {
+  const root = parentElement.querySelector(".player");
+  root.player ??= opened(root);
+  root.player.send = setStateValue;
+  if (data) receive(root.player, data);
+  return () => close(root.player);
+}
 
-  part(name) {
-    return this.root.querySelector(`[data-part=${name}]`);
-  }
+function opened(root) {
+  const canvas = (name) => root.querySelector(`[data-pane=${name}] canvas`);
+  const p = {
+    root,
+    canvases: { drawing: canvas("drawing"), map: canvas("map") },
+    card: root.querySelector(".card"),
+    header: null,
+    model: null,
+    state: null,
+    loading: 0,
+    playing: false,
+    position: 0,
+    hover: null,
+    pin: null,
+    tab: "scores",
+  };
+  root.inspect = () => inspection(p);
+  listenToTransport(p);
+  listenToCells(p);
+  listenToButtons(p);
+  root.addEventListener("keydown", (event) => keyDown(p, event));
+  p.observer = new ResizeObserver(() => resize(p));
+  p.observer.observe(root);
+  return p;
+}
 
-  listen() {
-    const actions = {
-      restart: () => this.walkTo(0),
-      back: () => this.walkTo(this.state.step - 1),
-      play: () => this.playback.toggle(),
-      forward: () => this.walkTo(this.state.step + 1),
-      unpin: () => this.inspector.unpin(),
-    };
-    for (const button of this.root.querySelectorAll("[data-do]")) {
-      button.addEventListener(
-        "click",
-        () => this.model && actions[button.dataset.do](),
-      );
-    }
-    this.root.addEventListener("keydown", (event) => this.onKey(event));
-  }
+function close(p) {
+  pause(p);
+  clearTimeout(p.commitTimer);
+  p.loading++;
+  p.observer.disconnect();
+  p.preview?.close();
+  p.model = null;
+}
 
-  onKey(event) {
-    if (!this.model || event.ctrlKey || event.metaKey || event.altKey) return;
-    const { target } = event;
-    if (target === this.stage.canvases.map && this.inspector.onKey(event)) {
-      event.preventDefault();
-      event.stopPropagation();
-      return;
-    }
-    const reach = event.shiftKey ? 10 : 1;
-    const moves = {
-      ArrowLeft: () => this.walkTo(this.state.step - reach),
-      ArrowRight: () => this.walkTo(this.state.step + reach),
-      Home: () => this.walkTo(0),
-      End: () => this.walkTo(this.model.nReadings),
-      Escape: () => this.inspector.unpin(),
-      " ": () => this.playback.toggle(),
-    };
-    // Sliders, options and buttons keep the keys that are theirs.
-    const theirs =
-      (target.matches("select, input:not(.scrub)") && event.key !== "Escape") ||
-      (target.matches("button") && event.key === " ");
-    if (!moves[event.key] || theirs) return;
-    event.preventDefault();
-    event.stopPropagation();
-    moves[event.key]();
-  }
-
-  // ---- from Python -----------------------------------------------------------------
-
-  async receive(data, send) {
-    this.send = send;
-    if (!data) return;
-    const [header, replay] = readPacked(data);
-    const sameDocument = this.header?.document.rev === header.document.rev;
-    const sameReplay = this.header?.digest === header.digest;
-    if (!this.stage) this.start(header);
-    this.header = header;
-    if (!sameDocument) this.adopt(header);
-    remembered.get(header.key).digest = header.digest;
-    if (!sameReplay) await this.replace(replay);
-    else if (!sameDocument) this.restore();
-    else this.retheme();
-  }
-
-  start(header) {
-    this.stage = new Stage(this.root, header.colours);
-    this.root.classList.toggle("compact", header.document.compact);
-    this.controls.build(header);
-    this.playback.offerSpeeds(header.speeds);
-    this.buildTiles(header.texts.scores);
-    for (const [name, value] of Object.entries(header.colours)) {
-      this.root.style.setProperty(`--colour-${name}`, value);
-    }
-  }
-
-  // A remount without word from Python goes on where this player was. While it plays
-  // nothing is sent, so that Python's word may be the step at which Play was pressed:
-  // where that is all it knows of the same replay, the step that was shown counts.
-  adopt(header) {
-    const isNew = !this.state;
-    const known = remembered.get(header.key);
-    if (known && known.state.rev === header.document.rev) {
-      this.state = known.state;
-      return;
-    }
-    this.state = { ...header.document };
-    const stale =
-      isNew &&
-      known?.digest === header.digest &&
-      known.toldStep === header.document.step;
-    if (stale) this.state.step = known.state.step;
-    const toldStep = header.document.step;
-    remembered.set(header.key, { state: this.state, toldStep });
-  }
-
-  // A running replay stops where it is: what was played is no more.
-  async replace(replay) {
-    const stopped = this.playback.playing;
-    this.playback.pause(false);
-    const load = ++this.load;
-    const decoded = decodeReplay((await inflated(replay)).buffer);
-    const preview = await decodePreview(decoded.preview);
-    if (load !== this.load) return; // newer data is on its way
-    this.model = new MapModel(decoded, this.header.constants);
-    this.root.model = this.model;
-    this.inspector.hideCard();
-    this.stage.show(this.model, preview);
-    this.restore();
-    this.root.dataset.ready = "1";
-    if (stopped) this.commit();
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (this.state.compact && !still) this.playback.play();
-  }
-
-  // Everything on screen from the state.
-  restore() {
-    if (!this.model) return;
-    this.state.step = Math.min(this.state.step, this.model.nReadings);
-    this.readInk();
-    this.controls.restore();
-    this.playback.restore();
-    this.inspector.restore();
-    this.model.seek(this.state.step);
-    this.recolour();
-  }
-
-  retheme() {
-    this.readInk();
-    this.refresh();
-  }
-
-  // ---- to Python -------------------------------------------------------------------
-
-  commit(delay = 0) {
-    if (this.state.compact) return;
-    clearTimeout(this.commitTimer);
-    const tell = () => {
-      remembered.get(this.header.key).toldStep = this.state.step;
-      this.send("committed", { ...this.state });
-    };
-    this.commitTimer = setTimeout(tell, delay);
-  }
-
-  // ---- scores ----------------------------------------------------------------------
-
-  buildTiles(scores) {
-    const panel = this.root.querySelector("[data-panel=scores]");
-    for (const { name, label, about } of scores) {
-      const value = element("output");
-      const naming = { role: "img", "aria-label": `${label} over the readings` };
-      const curve = element("canvas", naming);
-      const head = element(
-        "div",
-        { class: "tile-head" },
-        element("b", {}, label),
-        value,
-      );
-      const tile = { class: "tile", "data-score": name };
-      panel.append(element("div", tile, head, curve, element("small", {}, about)));
-      this.scrubOn(curve);
-      this.tiles.push({ name, value, curve });
-    }
-  }
-
-  scrubOn(curve) {
-    const go = (event) => this.goTo(stepAtCurve(curve, event, this.model.nReadings));
-    curve.addEventListener("pointerdown", (event) => {
-      this.playback.pause(false);
-      curve.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    curve.addEventListener("pointermove", (event) => {
-      if (curve.hasPointerCapture(event.pointerId)) go(event);
-    });
-    curve.addEventListener("pointerup", () => this.commit());
-  }
-
-  showScores() {
-    const { step } = this.state;
-    for (const { name, value, curve } of this.tiles) {
-      value.textContent = percent(this.series[name][step]);
-      drawCurve(curve, this.series[name], step, this.ink);
-    }
-  }
-
-  // Colours of the page's theme, for the canvases.
-  readInk() {
-    const { colours } = this.header;
-    const { evidenceWall: wall, evidenceFree: free } = colours;
-    this.ink = { ...themeOf(this.root), wall, free };
-  }
-
-  // ---- what is drawn again -----------------------------------------------------------
-
-  // A step by hand: stops the replay, and Python hears of it.
-  walkTo(step) {
-    this.playback.pause(false);
-    this.goTo(step);
-    this.commit(COMMIT_DELAY);
-  }
-
-  goTo(step, position = step) {
-    const target = Math.min(this.model.nReadings, Math.max(0, step));
-    this.playback.position = position;
-    if (target === this.state.step && target === this.model.step) return;
-    this.state.step = target;
-    this.stage.cells.paintEntries(this.model.seek(target));
-    this.refresh();
-  }
-
-  // After a change of prior, rule, overlay or region: all cells and all curves anew.
-  recolour() {
-    const { state, model, stage } = this;
-    if (!model) return;
-    const began = performance.now();
-    model.setPrior({
-      pWall: state.p_wall,
-      pSpace: state.p_space,
-      uninformative: state.uninformative,
-      once: state.rule === "prior_once",
-    });
-    const allCells = state.region === "all";
-    this.curves = model.scoreCurves(allCells);
-    this.series = scoreSeries(this.curves, model.nCells);
-    stage.cells.paintAll(state.overlay, allCells);
-    this.controls.show();
-    this.refresh();
-    this.root.dataset.recolourMs = (performance.now() - began).toFixed(2);
-  }
-
-  refresh() {
-    if (!this.model || !this.curves) return;
-    const began = performance.now();
-    this.stage.draw();
-    this.playback.show();
-    if (!this.state.compact) {
-      if (this.inspector.tab === "scores") this.showScores();
-      else this.inspector.show();
-      this.report();
-    }
-    this.root.dataset.drawMs = (performance.now() - began).toFixed(2);
-  }
-
-  // For tests: what the player holds, readable from outside.
-  report() {
-    const { state, model, curves } = this;
-    const { step } = state;
-    const [tp, fp, fn, tn] = curves.counts.map((curve) => curve[step]);
-    const { rev } = this.header.document;
-    const held = { tp, fp, fn, tn, step, rev, explored: curves.explored[step] };
-    Object.assign(this.root.dataset, held, {
-      nReadings: model.nReadings,
-      pWall: state.p_wall,
-      pSpace: state.p_space,
-    });
-  }
-
-  resize() {
-    if (!this.model) return;
-    this.stage.layout();
-    this.refresh();
-  }
-
-  dispose() {
-    this.playback.pause(false);
-    clearTimeout(this.commitTimer);
-    this.load++;
-    this.observer.disconnect();
-    this.stage?.dispose();
-    this.model = null;
+function listenToButtons(p) {
+  const actions = {
+    restart: () => walkTo(p, 0),
+    back: () => walkTo(p, p.state.step - 1),
+    play: () => togglePlay(p),
+    forward: () => walkTo(p, p.state.step + 1),
+    unpin: () => unpin(p),
+  };
+  for (const button of p.root.querySelectorAll("[data-do]")) {
+    button.addEventListener("click", () => p.model && actions[button.dataset.do]());
   }
 }
 
-export default function ({ data, parentElement, setStateValue }) {
-  const root = parentElement.querySelector(".player");
-  root.player ??= new Player(root);
-  root.player.receive(data, setStateValue);
-  return () => root.player.dispose();
+function keyDown(p, event) {
+  if (!p.model || event.ctrlKey || event.metaKey || event.altKey) return;
+  const { target, key } = event;
+  const onMap = target === p.canvases.map && !isInert(p);
+  if (!(onMap && cellKey(p, event))) {
+    const reach = event.shiftKey ? 10 : 1;
+    const moves = {
+      ArrowLeft: () => walkTo(p, p.state.step - reach),
+      ArrowRight: () => walkTo(p, p.state.step + reach),
+      Home: () => walkTo(p, 0),
+      End: () => walkTo(p, p.model.nReadings),
+      Escape: () => unpin(p),
+      " ": () => togglePlay(p),
+    };
+    // Sliders, options and buttons keep the keys that are theirs.
+    const isTheirs =
+      (target.matches("select, input:not(.scrub)") && key !== "Escape") ||
+      (target.matches("button") && key === " ");
+    if (!moves[key] || isTheirs) return;
+    moves[key]();
+  }
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+// ---- from Python -----------------------------------------------------------------------
+
+// Until a new replay is decoded the old one stays, with its document and its choices.
+async function receive(p, data) {
+  const turn = ++p.loading;
+  const [header, replay] = readPacked(data);
+  if (!p.header) build(p, header);
+  if (p.model && p.header.digest === header.digest) {
+    if (p.header.document.rev === header.document.rev) retheme(p);
+    else take(p, header, p.model, p.preview);
+    return;
+  }
+  const decoded = decodeReplay((await inflated(replay)).buffer);
+  const preview = await pictureOf(decoded.preview).catch(() => null);
+  if (turn !== p.loading) return; // newer data is on its way
+  p.preview?.close();
+  take(p, header, newModel(decoded, header.constants), preview);
+}
+
+function build(p, header) {
+  p.root.classList.toggle("compact", header.document.compact);
+  buildControls(p, header);
+  buildSpeeds(p, header.speeds);
+  buildTiles(p, header.texts.scores);
+  for (const [name, value] of Object.entries(header.colours)) {
+    p.root.style.setProperty(`--colour-${name}`, value);
+  }
+}
+
+// Shows a replay under a document. One that was playing stops where it is.
+function take(p, header, model, preview) {
+  const wasPlaying = pause(p);
+  p.state = adopted(header, p.state);
+  Object.assign(p, { header, model, preview, hover: null });
+  p.theme = themeOf(p.root);
+  p.picture = newPicture(model, header.colours);
+  fitState(p);
+  hideCard(p);
+  layOut(p);
+  recolour(p);
+  p.root.dataset.ready = "1";
+  if (wasPlaying) commit(p);
+  const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  if (p.state.compact && !isStill) play(p);
+}
+
+// The choices that rule. A player that comes back without word from Python goes on where
+// it was. While it plays nothing is sent, so that Python's word may be the step at which
+// Play was pressed: where that is all it knows of the same replay, the step that was
+// shown counts.
+function adopted({ key, digest, document }, current) {
+  const known = remembered.get(key);
+  if (known?.state.rev === document.rev) {
+    known.digest = digest;
+    return known.state;
+  }
+  const state = { ...document };
+  const isLate = !current && known?.digest === digest && known.toldStep === document.step;
+  if (isLate) state.step = known.state.step;
+  remembered.set(key, { state, digest, toldStep: document.step });
+  return state;
+}
+
+// Makes the choices fit the replay: they may have been made on another one.
+function fitState(p) {
+  const { state, model, header } = p;
+  state.step = clamp(state.step, 0, model.nReadings);
+  state.speed ??= usualSpeed(header.speeds, model.nReadings);
+  p.pin = state.pin_px && cellHolding(model, ...state.pin_px);
+  if (p.pin === null) state.pin_px = null;
+  if (p.pin !== null) p.tab = "cell";
+  p.position = state.step;
+  seek(model, state.step);
+  partOf(p.root, "scrub").max = model.nReadings;
+  partOf(p.root, "speed").value = state.speed;
+}
+
+function retheme(p) {
+  p.theme = themeOf(p.root);
+  refresh(p);
+}
+
+// ---- to Python and to who listens --------------------------------------------------------
+
+function commit(p, delay = 0) {
+  if (p.state.compact) return;
+  clearTimeout(p.commitTimer);
+  p.commitTimer = setTimeout(() => {
+    remembered.get(p.header.key).toldStep = p.state.step;
+    p.send("committed", { ...p.state });
+    say(p, stateWords(p));
+  }, delay);
+}
+
+// A screen reader hears what a student comes to, not each frame on the way.
+function say({ root }, words) {
+  partOf(root, "said").textContent = words;
+}
+
+function stateWords(p) {
+  const { step } = p.state;
+  const scores = p.tiles.map(({ name, label }) => `${label} ${percent(p.series[name][step])}`);
+  const pinned = p.pin === null ? [] : [cellWords(p.model, p.pin)];
+  return [`${stepWords(p)}: ${scores.join(", ")}`, ...pinned].join(". ");
+}
+
+// ---- what is drawn again -----------------------------------------------------------------
+
+// After a change of prior, rule, overlay or region: all cells and all curves anew.
+function recolour(p) {
+  const { state, model } = p;
+  if (!model) return;
+  const began = performance.now();
+  setPrior(model, state);
+  p.curves = scoreCurves(model, state.region === "all");
+  p.series = scoreSeries(p.curves, model.nCells);
+  paintAll(p.picture, model, state);
+  showControls(p);
+  refresh(p);
+  p.root.dataset.recolourMs = (performance.now() - began).toFixed(2);
+}
+
+function refresh(p) {
+  if (!p.model) return;
+  const began = performance.now();
+  drawStage(p);
+  showStep(p);
+  if (!p.state.compact) {
+    showTab(p);
+    report(p);
+  }
+  p.root.dataset.drawMs = (performance.now() - began).toFixed(2);
+}
+
+// For tests, readable from outside: what the player shows, and the numbers behind it.
+function report({ root, header, state, model, curves }) {
+  const { step } = state;
+  const [tp, fp, fn, tn] = curves.counts.map((curve) => curve[step]);
+  Object.assign(root.dataset, { tp, fp, fn, tn, step, explored: curves.explored[step] });
+  const { nReadings, cellPx } = model;
+  Object.assign(root.dataset, { rev: header.document.rev, nReadings, cellPx });
+  Object.assign(root.dataset, { pWall: state.p_wall, pSpace: state.p_space });
+}
+
+function inspection(p) {
+  const { model, hover, pin, scale } = p;
+  const logOdds = Array.from(model.counts, (_, c) => logOddsAt(model, c));
+  const history = pin === null ? null : historyOf(model, pin);
+  const bars = p.terms?.bars.map((_, i) => barX(p.terms.slot, i));
+  return { hover, pin, scale, logOdds, history, bars };
+}
+
+function resize(p) {
+  if (!p.model) return;
+  layOut(p);
+  refresh(p);
 }

@@ -1,0 +1,68 @@
+"""What the tests of the map player share: the run it shows first, and hands for it."""
+
+from functools import cache
+
+import numpy as np
+
+from occsim import MappingRun, MapSettings, Sensor, load_sample
+
+CELL_PX = 3
+FOV_RAD = np.pi / 6
+ROOT = ".player"
+
+
+@cache
+def run(cell_px=CELL_PX):
+    """The run that the page shows first, by occsim: log, wall cells, truth."""
+    sample = load_sample("a")
+    sensor = Sensor(range_px=sample.sensor.range_px, fov_rad=FOV_RAD)
+    made = MappingRun(sample, MapSettings(cell_px=cell_px, sensor=sensor))
+    return made.evidence, made.wall_cells, made.truth_cells
+
+
+def open_player(page, app_url, query=""):
+    page.goto(f"{app_url}/Build_a_map?drawing=a{query}")
+    page.wait_for_selector(f"{ROOT}[data-ready='1']")
+    return page.locator(ROOT)
+
+
+def shown(player, *names):
+    data = player.evaluate("root => ({...root.dataset})")
+    return [int(data[name]) for name in names]
+
+
+def inspect(player):
+    """Numbers behind the picture: hover, pin, scale, log-odds, the pinned history."""
+    return player.evaluate("root => root.inspect()")
+
+
+def scrub(player, step):
+    player.locator("[data-part=scrub]").fill(str(step))
+
+
+def slide(player, name, value):
+    player.locator(f"[data-slider={name}] input").fill(f"{value:.2f}")
+
+
+def choose(player, name, value):
+    player.locator(f"input[name={name}][value={value}]").check()
+
+
+def point_of(player, cell, grid=None):
+    """Where the middle of a cell is on the page, CSS px."""
+    grid = grid or run()[0].grid
+    box = player.locator("[data-pane=map] canvas").bounding_box()
+    row, col = divmod(cell, grid.n_cols)
+    scale = box["width"] / grid.width_px
+    x, y = (col + 0.5) * grid.cell_px, (row + 0.5) * grid.cell_px
+    return box["x"] + x * scale, box["y"] + y * scale
+
+
+def wait_until(page, player, condition):
+    page.wait_for_function(condition, arg=player.element_handle())
+
+
+def settled(page):
+    """Wait until the page has answered what the player committed."""
+    page.wait_for_timeout(600)
+    page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")

@@ -1,0 +1,183 @@
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { load } from "./scripts.mjs";
+import { CONSTANTS, randomReplay } from "./worlds.mjs";
+
+const player = load("player");
+
+// The page, as far as these functions touch it.
+const root = { querySelector: () => ({}) };
+let told = [];
+globalThis.refresh = () => {};
+globalThis.showPlaying = () => {};
+globalThis.commit = (p) => told.push(p.state.step);
+globalThis.cancelAnimationFrame = () => {};
+globalThis.requestAnimationFrame = () => 1;
+beforeEach(() => (told = []));
+
+const DOCUMENT = {
+  rev: 1,
+  p_wall: 0.2,
+  p_space: 0.9,
+  uninformative: false,
+  rule: "prior_once",
+  region: "explored",
+  overlay: "none",
+  step: 0,
+  speed: 5,
+  pin_px: null,
+  compact: false,
+};
+
+function playerOf(changes = {}) {
+  const model = player.newModel(randomReplay(1).replay, CONSTANTS);
+  const p = { root, model, state: { ...DOCUMENT, ...changes }, playing: false, tab: "scores" };
+  p.header = { speeds: [5, 15, 30, 60, 120] };
+  p.picture = { inks: null, pixels: new Uint32Array(model.nCells), colours: COLOURS };
+  player.setPrior(model, p.state);
+  player.paintAll(p.picture, model, p.state);
+  player.fitState(p);
+  return p;
+}
+
+const COLOURS = Object.fromEntries(
+  [
+    "beliefOccupied",
+    "beliefFree",
+    "wallMask",
+    "groundTruth",
+    "hit",
+    "falseWall",
+    "missedWall",
+    "free",
+    "unseen",
+  ].map((name) => [name, "#123456"]),
+);
+
+// ---- playback: 40 readings, 5 a second -------------------------------------------------
+
+test("a replay advances by its speed and keeps the fraction", () => {
+  const p = playerOf();
+  player.play(p);
+  const steps = [0.1, 0.1, 0.1, 0.5].map((seconds) => {
+    player.advance(p, seconds);
+    return p.state.step;
+  });
+  assert.deepEqual(steps, [0, 1, 1, 4]);
+  assert.equal(p.model.step, 4);
+});
+
+test("a replay stops at its last reading, once, and says so", () => {
+  const p = playerOf({ step: 39 });
+  player.play(p);
+  player.advance(p, 0.2);
+  assert.deepEqual([p.state.step, p.playing, told], [40, false, [40]]);
+  assert.equal(player.pause(p), false);
+});
+
+test("play at the end starts anew", () => {
+  const p = playerOf({ step: 40 });
+  player.play(p);
+  assert.deepEqual([p.state.step, p.playing], [0, true]);
+});
+
+test("a compact replay waits at its end, then starts again, and tells nobody", () => {
+  const p = playerOf({ step: 39, compact: true });
+  player.play(p);
+  player.advance(p, 1.5);
+  assert.deepEqual([p.state.step, p.playing], [40, true]);
+  player.advance(p, 0.2);
+  assert.equal(p.state.step, 40);
+  player.advance(p, 0.5);
+  assert.deepEqual([p.state.step, p.playing, told], [0, true, []]);
+});
+
+test("a step by hand stops the replay and stays within the readings", () => {
+  const p = playerOf({ step: 20 });
+  for (const [to, step] of [
+    [21, 21],
+    [-5, 0],
+    [99, 40],
+  ]) {
+    player.play(p);
+    player.walkTo(p, to);
+    assert.deepEqual([p.state.step, p.model.step, p.playing], [step, step, false]);
+  }
+  assert.deepEqual(told, [21, 0, 40]);
+});
+
+test("unless one was chosen, the speed makes a replay last about ten seconds", () => {
+  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 40), 5);
+  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 420), 30);
+  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 5000), 120);
+  assert.equal(playerOf({ speed: null }).state.speed, 5);
+});
+
+// ---- choices restored over other data: 5 x 6 cells of 3 px ------------------------------
+
+test("a step beyond the end becomes the end", () => {
+  const p = playerOf({ step: 500 });
+  assert.deepEqual([p.state.step, p.model.step, p.position], [40, 40, 40]);
+});
+
+test("a pin stays on the cell that now holds its point", () => {
+  const p = playerOf({ pin_px: [17.9, 14.9] });
+  assert.deepEqual([p.pin, p.tab], [29, "cell"]);
+});
+
+test("a pin outside the drawing is dropped, not drawn", () => {
+  for (const pin_px of [
+    [18, 5],
+    [5, 15],
+    [400, 300],
+    [-1, 2],
+    [NaN, 1],
+  ]) {
+    const p = playerOf({ pin_px });
+    assert.deepEqual([p.pin, p.state.pin_px, p.tab], [null, null, "scores"]);
+  }
+});
+
+test("a cell that the edge of the drawing cuts is whole as far as it goes", () => {
+  const model = { cellPx: 4, nCols: 3, nRows: 2, widthPx: 10, heightPx: 7 };
+  assert.equal(player.cellHolding(model, 9.9, 6.9), 5);
+  assert.equal(player.cellHolding(model, 10, 6), null);
+  assert.deepEqual(player.boxOf(model, 5), { x: 8, y: 4, width: 2, height: 3 });
+  assert.deepEqual(player.centreOf(model, 5), [9, 5.5]);
+});
+
+// ---- whose word counts ------------------------------------------------------------------
+
+const headerOf = (key, digest, document) => ({
+  key,
+  digest,
+  document: { ...DOCUMENT, ...document },
+});
+
+test("a player that comes back unasked goes on where it was", () => {
+  const state = player.adopted(headerOf("a", "x", { rev: 3, step: 7 }), null);
+  state.step = 20;
+  assert.equal(player.adopted(headerOf("a", "x", { rev: 3, step: 7 }), null).step, 20);
+});
+
+test("another rev imposes its document", () => {
+  const state = player.adopted(headerOf("b", "x", { rev: 3, step: 7 }), null);
+  state.step = 20;
+  const next = player.adopted(headerOf("b", "x", { rev: 4, step: 9, p_wall: 0.5 }), state);
+  assert.deepEqual([next.step, next.p_wall], [9, 0.5]);
+});
+
+test("a word that was overtaken by what was played gives way to it", () => {
+  const back = (key, digest, step) => {
+    player.adopted(headerOf(key, "x", { rev: 3, step: 7 }), null).step = 20; // not told
+    return player.adopted(headerOf(key, digest, { rev: 4, step }), null).step;
+  };
+  assert.equal(back("same replay", "x", 7), 20);
+  assert.equal(back("another replay", "y", 7), 7);
+  assert.equal(back("another step", "x", 8), 8);
+});
+
+test("players on other pages are remembered apart", () => {
+  player.adopted(headerOf("d", "x", { rev: 3, step: 7 }), null).step = 20;
+  assert.equal(player.adopted(headerOf("e", "x", { rev: 3, step: 7 }), null).step, 7);
+});

@@ -1,0 +1,71 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { deflateSync } from "node:zlib";
+import { load } from "./scripts.mjs";
+
+const player = load("player");
+
+// The layout of occsim/io/replay.py, version 1, written down number by number: 7 x 10 px
+// in cells of 4, so 2 x 3 cells; two readings of the cells {1, 2, 5} and {0, 1}.
+function written() {
+  const words = [0x3152474f, 7, 10, 4, 2, 5, 3, 2, 1, 4, 0, 0];
+  const parts = [
+    Uint32Array.from(words),
+    Float64Array.of(20, 0.5),
+    Float64Array.of(-2, 1.5),
+    Float32Array.of(1, 2, 3, 4, 5, 6),
+    Uint32Array.of(2, 1), // runs of each reading
+    Uint32Array.of(1, 2, 0), // gaps
+    Uint32Array.of(2, 1, 2), // lengths
+    Uint8Array.of(0, 1, 1, 0, 0), // values of the entries
+    Uint8Array.of(0b10010000), // wall cells 0 and 3
+    Uint8Array.of(0b00000100), // truth: cell 5
+    Uint8Array.of(9, 8, 7, 6), // preview
+  ];
+  return Buffer.concat(parts.map((part) => Buffer.from(part.buffer)));
+}
+
+test("a replay is read as its layout says", () => {
+  const bytes = new Uint8Array(written());
+  const replay = player.decodeReplay(bytes.buffer);
+  const { heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings } = replay;
+  assert.deepEqual(
+    [heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings],
+    [7, 10, 4, 2, 3, 6, 2],
+  );
+  assert.deepEqual([replay.rangePx, replay.fovRad], [20, 0.5]);
+  assert.deepEqual([...replay.indptr], [0, 3, 5]);
+  assert.deepEqual([...replay.cell], [1, 2, 5, 0, 1]);
+  assert.deepEqual([...replay.logOdds], [-2, 1.5, 1.5, -2, -2]);
+  assert.deepEqual([...replay.poses], [1, 2, 3, 4, 5, 6]);
+  assert.deepEqual([...replay.isWall], [1, 0, 0, 1, 0, 0]);
+  assert.deepEqual([...replay.truth], [0, 0, 0, 0, 0, 1]);
+  assert.deepEqual([...replay.preview], [9, 8, 7, 6]);
+});
+
+test("header and payloads come apart, also from the middle of a buffer", () => {
+  const header = Buffer.from(JSON.stringify({ name: "\u00e9", sizes: [2, 0, 3] }));
+  const length = Buffer.alloc(4);
+  length.writeUInt32LE(header.length);
+  const whole = Buffer.concat([Buffer.of(99), length, header, Buffer.of(1, 2, 3, 4, 5)]);
+  const data = new Uint8Array(whole).subarray(1);
+  const [read, ...payloads] = player.readPacked(data);
+  assert.equal(read.name, "\u00e9");
+  assert.deepEqual(
+    payloads.map((bytes) => [...bytes]),
+    [[1, 2], [], [3, 4, 5]],
+  );
+});
+
+test("flags go into bits and back, high bit first", () => {
+  const flags = Uint8Array.of(1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1);
+  assert.deepEqual([...player.packBits(flags)], [0b10000001, 0b01100000]);
+  assert.deepEqual(player.unpackBits(player.packBits(flags), 11), flags);
+});
+
+test("zlib streams are those of other programs, and base64 is what btoa writes", async () => {
+  const bytes = Uint8Array.from({ length: 1000 }, (_, i) => (i * i) % 251);
+  assert.deepEqual(await player.inflated(deflateSync(bytes)), bytes);
+  assert.deepEqual(await player.inflated(await player.deflated(bytes)), bytes);
+  assert.equal(player.base64(Uint8Array.of(0, 255, 16)), "AP8Q");
+});

@@ -1,0 +1,68 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { load } from "./scripts.mjs";
+
+const player = load("player");
+
+test("numbers have a true minus, and no minus where they round to zero", () => {
+  assert.equal(player.fixed(-1.2345, 2), "\u22121.23");
+  assert.equal(player.fixed(-0.0001, 3), "0.000");
+  assert.equal(player.signed(1.5, 3), "+1.500");
+  assert.equal(player.signed(-1.5, 1), "\u22121.5");
+});
+
+test("a probability near 0 or 1 is not shown as certain", () => {
+  assert.equal(player.probability(0.18), "0.180");
+  assert.equal(player.probability(0.00012), "1.2e\u22124");
+  assert.equal(player.probability(1 - 0.00012), "1 \u2212 1.2e\u22124");
+  assert.equal(player.probability(0), "0.000");
+});
+
+test("an undefined score is a dash", () => {
+  assert.equal(player.percent(NaN), "\u2013");
+  assert.equal(player.percent(0.8512), "85.1 %");
+});
+
+// Prior -1, then a reading to 0.5 and one to -0.25.
+test("a waterfall goes from one total to the next and knows what is still to come", () => {
+  const terms = [
+    { reading: 2, total: 0.5 },
+    { reading: 9, total: -0.25 },
+  ];
+  const bars = player.waterfall({ prior: -1, terms }, 9);
+  assert.deepEqual(
+    bars.map(({ from, to }) => [from, to]),
+    [
+      [0, -1],
+      [-1, 0.5],
+      [0.5, -0.25],
+    ],
+  );
+  assert.deepEqual(
+    bars.map(({ label }) => label),
+    ["prior", "3", "10"],
+  );
+  assert.deepEqual(
+    bars.map(({ isDone }) => isDone),
+    [true, true, false],
+  );
+});
+
+test("ticks are round and few", () => {
+  assert.deepEqual(
+    [2, 3, 9, 45, 130].map((span) => player.tickStep(span, 4)),
+    [0.5, 1, 5, 20, 50],
+  );
+});
+
+test("two pictures stand where they are largest", () => {
+  const wide = { widthPx: 400, heightPx: 100 };
+  const tall = { widthPx: 100, heightPx: 400 };
+  const box = { width: 816, height: 400 };
+  assert.deepEqual(player.arrange(box, wide, "wide"), {
+    scale: (400 - 16 - 22) / 2 / 100,
+    stacked: true,
+  });
+  assert.deepEqual(player.arrange(box, tall, "wide"), { scale: 1, stacked: false });
+  assert.deepEqual(player.arrange(box, tall, "narrow"), { scale: 1, stacked: true });
+});
