@@ -13,6 +13,7 @@ import pytest
 
 import occsim
 from tests.library_requirements import requirements
+from tests.test_public_names import readme_examples
 
 pytest.importorskip("hatchling", reason="hatchling builds the wheel")
 
@@ -74,13 +75,12 @@ def test_the_wheel_holds_the_whole_package_and_nothing_else(wheel):
     assert {"occsim/py.typed", "occsim/samples/e_truth.png"} < names
 
 
-def test_the_readme_example_runs_from_the_wheel_word_for_word(run, installed):
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
-    *scores, where = run(
-        "-c", f"{example}\nimport occsim; print(occsim.__file__)"
-    ).stdout.split()
+def test_the_readme_examples_run_from_the_wheel_word_for_word(run, installed):
+    code = "\n".join((*readme_examples(), "import occsim", "print(occsim.__file__)"))
+    *printed, where = run("-c", code).stdout.splitlines()
     assert Path(where).is_relative_to(installed)
+    scores = re.findall(r"\d\.\d+", " ".join(printed))
+    assert scores
     assert all(0.0 < float(score) <= 1.0 for score in scores)
 
 
