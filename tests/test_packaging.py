@@ -7,12 +7,14 @@ import sys
 import sysconfig
 import tomllib
 import zipfile
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 
 import occsim
 from tests.library_requirements import requirements
+from tests.test_layers import imported_modules, python_files
 from tests.test_public_names import readme_examples
 
 pytest.importorskip("hatchling", reason="hatchling builds the wheel")
@@ -130,6 +132,24 @@ def test_requirements_files_are_the_lists_of_pyproject():
     app = PROJECT["dependencies"] + own["study"] + own["app"]
     assert listed("requirements.txt") == sorted(app)
     assert listed("requirements-dev.txt") == sorted(own["dev"])
+
+
+@pytest.mark.parametrize(
+    ("folder", "files"),
+    [
+        ("occsim", ["requirements.txt"]),
+        ("pages", ["requirements.txt"]),
+        ("tests", ["requirements.txt", "requirements-dev.txt"]),
+    ],
+)
+def test_everything_imported_is_asked_for_by_name(folder, files):
+    """Not left to come along with another package, which may drop it."""
+    imported = set().union(*map(imported_modules, python_files(folder)))
+    modules = {name.partition(".")[0] for name in imported}
+    modules -= {*sys.stdlib_module_names, "occsim", "pages", "tests", "assets"}
+    named = {re.split("[>=]", one)[0] for file in files for one in listed(file)}
+    found = packages_distributions()
+    assert [m for m in sorted(modules) if not named & set(found.get(m, ()))] == []
 
 
 def test_the_lock_pins_everything_that_the_app_asks_for():
