@@ -7,12 +7,15 @@ import sys
 import sysconfig
 import tomllib
 import zipfile
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 
 import occsim
 from tests.library_requirements import requirements
+from tests.test_layers import imported_modules, python_files
+from tests.test_public_names import readme_examples
 
 pytest.importorskip("hatchling", reason="hatchling builds the wheel")
 
@@ -74,13 +77,12 @@ def test_the_wheel_holds_the_whole_package_and_nothing_else(wheel):
     assert {"occsim/py.typed", "occsim/samples/e_truth.png"} < names
 
 
-def test_the_readme_example_runs_from_the_wheel_word_for_word(run, installed):
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
-    *scores, where = run(
-        "-c", f"{example}\nimport occsim; print(occsim.__file__)"
-    ).stdout.split()
+def test_the_readme_examples_run_from_the_wheel_word_for_word(run, installed):
+    code = "\n".join((*readme_examples(), "import occsim", "print(occsim.__file__)"))
+    *printed, where = run("-c", code).stdout.splitlines()
     assert Path(where).is_relative_to(installed)
+    scores = re.findall(r"\d\.\d+", " ".join(printed))
+    assert scores
     assert all(0.0 < float(score) <= 1.0 for score in scores)
 
 
@@ -130,6 +132,24 @@ def test_requirements_files_are_the_lists_of_pyproject():
     app = PROJECT["dependencies"] + own["study"] + own["app"]
     assert listed("requirements.txt") == sorted(app)
     assert listed("requirements-dev.txt") == sorted(own["dev"])
+
+
+@pytest.mark.parametrize(
+    ("folder", "files"),
+    [
+        ("occsim", ["requirements.txt"]),
+        ("pages", ["requirements.txt"]),
+        ("tests", ["requirements.txt", "requirements-dev.txt"]),
+    ],
+)
+def test_everything_imported_is_asked_for_by_name(folder, files):
+    """Not left to come along with another package, which may drop it."""
+    imported = set().union(*map(imported_modules, python_files(folder)))
+    modules = {name.partition(".")[0] for name in imported}
+    modules -= {*sys.stdlib_module_names, "occsim", "pages", "tests", "assets"}
+    named = {re.split("[>=]", one)[0] for file in files for one in listed(file)}
+    found = packages_distributions()
+    assert [m for m in sorted(modules) if not named & set(found.get(m, ()))] == []
 
 
 def test_the_lock_pins_everything_that_the_app_asks_for():
