@@ -38,6 +38,8 @@ DECODER = Path(__file__).with_name("decode") / "__main__.py"
 
 OUT_OF_TIME = getattr(signal, "SIGXCPU", 0)
 
+NOT_STARTED = "no process can be started to decode drawings in"
+
 Reply = dict[str, Any]
 
 
@@ -58,7 +60,7 @@ class Decoder:
         )
         self._requests: Any = self._process.stdin
         self._replies: Any = self._process.stdout
-        self._is_late = self._is_spent = False
+        self._is_ready = self._is_late = self._is_spent = False
 
     @property
     def is_fit(self) -> bool:
@@ -84,8 +86,10 @@ class Decoder:
 
         Raises
         ------
+        DrawingError
+            Where the process does not start.
         EOFError
-            Where the process breaks.
+            Where it breaks.
         TimeoutError
             Where it does not finish in time.
         """
@@ -97,6 +101,8 @@ class Decoder:
         except (OSError, EOFError):
             if self._is_late or self._ran_out_of_time():
                 raise TimeoutError from None
+            if not self._is_ready:
+                raise DrawingError(NOT_STARTED) from None
             raise EOFError from None
         finally:
             timer.cancel()
@@ -107,16 +113,23 @@ class Decoder:
         self._requests.write(line.encode("ascii") + b"\n")
         self._requests.write(data)
         self._requests.flush()
-        answer = self._replies.readline()
-        if not answer.endswith(b"\n"):
-            raise EOFError
-        reply = json.loads(answer)
+        if not self._is_ready:
+            self._read_message()
+            self._is_ready = True
+        reply = self._read_message()
         self._is_spent = reply["is_spent"]
         shape = reply.get("height", 0), reply.get("width", 0), 3
         pixels = np.empty(shape, np.uint8)
         if self._replies.readinto(pixels) < pixels.size:
             raise EOFError
         return reply, pixels
+
+    def _read_message(self) -> Reply:
+        line = self._replies.readline()
+        if not line.endswith(b"\n"):
+            raise EOFError
+        message: Reply = json.loads(line)
+        return message
 
     def _ran_out_of_time(self) -> bool:
         """Return whether the system ended the process for its use of the processor."""
@@ -221,11 +234,11 @@ class Pool:
                 return decoder
             decoder.end()
         if getattr(sys, "frozen", False) or not sys.executable:
-            raise DrawingError("no Python was found to decode drawings with")
+            raise DrawingError(NOT_STARTED)
         try:
             return Decoder()
-        except OSError as error:
-            raise DrawingError(f"no decoder can be started ({error})") from None
+        except OSError:
+            raise DrawingError(NOT_STARTED) from None
 
     def end(self) -> None:
         """End what is idle; the rest ends when it has answered."""

@@ -10,9 +10,11 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import load_drawing, load_trajectory
+from occsim import load_drawing
 from occsim.building import truth_from_image
 from occsim.imaging import Drawing, is_pdf, load_pdf_page, pdf_page_count
+from occsim.io.metric import MetricFrame
+from occsim.io.trajectories import read_trajectory_table
 from pages._ui import compute, state
 
 IMAGE_TYPES = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif", "pgm", "pdf"]
@@ -20,6 +22,8 @@ TRAJECTORY_TYPES = ["csv", "txt", "npy", "mat", "json", "tum"]
 MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
+# Larger scans are reduced while they are decoded: 48 MB at most are kept of a file.
+DECODED_PX = 4000
 PAGE, PDF, POSES = "pdf_page", "pdf", "pose_file"
 DRAWINGS = "drawings_taken"
 
@@ -38,7 +42,7 @@ def panel() -> None:
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
     _uploader(
-        "Drawing", key, IMAGE_TYPES, _map_drawing, "Image or PDF, up to 40 megapixels."
+        "Drawing", key, IMAGE_TYPES, _map_drawing, "Image or PDF; scans of any size."
     )
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
@@ -128,7 +132,8 @@ class Pdf:
 def _map_drawing(file: Any) -> None:
     data = file.getvalue()
     n_pages = pdf_page_count(data) if is_pdf(data) else 0
-    _map(load_drawing(data, name=file.name))
+    side_px = _working_px() if n_pages else DECODED_PX
+    _map(load_drawing(data, name=file.name, max_side_px=side_px))
     state.set_view(PAGE, 1)
     digest = state.building().drawing.digest
     state.set_view(PDF, Pdf(file.name, data, n_pages, digest) if n_pages > 1 else None)
@@ -137,20 +142,26 @@ def _map_drawing(file: Any) -> None:
 def _map_page() -> None:
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
-        _map(load_pdf_page(pdf.data, int(state.view(PAGE, 1)), name=pdf.name))
+        page, side_px = int(state.view(PAGE, 1)), _working_px()
+        _map(load_pdf_page(pdf.data, page, long_side_px=side_px, name=pdf.name))
         digest = state.building().drawing.digest
         state.set_view(PDF, replace(pdf, drawing_digest=digest))
 
 
 def _map(loaded: Drawing) -> None:
-    working_px = int(state.view(WORKING, WORKING_PX))
     sensor = state.settings().sensor
-    state.open_own(compute.own_building(loaded, sensor, working_px))
+    state.open_own(compute.own_building(loaded, sensor, _working_px()))
     state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 
+def _working_px() -> int:
+    return int(state.view(WORKING, WORKING_PX))
+
+
 def _use_truth(file: Any) -> None:
-    image = load_drawing(file.getvalue(), name=file.name)
+    image = load_drawing(
+        file.getvalue(), name=file.name, max_side_px=DECODED_PX, keep_dark=True
+    )
     shape = state.building().drawing.shape
     state.edit_building(truth=truth_from_image(image, shape))
 
@@ -176,8 +187,18 @@ def _read_poses() -> None:
     if file is None or file.drawing_digest != state.building().drawing.digest:
         return
     unit = UNITS[state.view("angle_unit", "As the file says")]
-    trajectory = load_trajectory(file.data, name=file.name, degrees=unit)
-    state.edit_building(trajectory=trajectory)
+    table = read_trajectory_table(file.data, name=file.name)
+    frame = _frame() if table.metres else None
+    state.edit_building(trajectory=table.to_trajectory(unit, frame))
+
+
+def _frame() -> MetricFrame | None:
+    """Where the drawing lies for a file in metres: its lower left corner at zero."""
+    building = state.building()
+    if building.metres_per_px is None:
+        return None
+    height_px, _ = building.drawing.shape
+    return MetricFrame(height_px=height_px, metres_per_px=building.metres_per_px)
 
 
 def pose_notice() -> None:

@@ -180,13 +180,16 @@ def test_decoder_that_broke_is_replaced(jpeg):
     assert load_drawing(jpeg).shape == (60, 80)
 
 
-def test_no_decoder_is_a_sentence(jpeg, monkeypatch):
+@pytest.mark.parametrize("python", ["", "/none", "no program", "breaks at once"])
+def test_no_decoder_is_a_sentence(python, jpeg, monkeypatch, tmp_path):
+    if python == "no program":
+        python = str(jpeg)
+    if python == "breaks at once":
+        monkeypatch.setattr(pool, "DECODER", tmp_path / "none.py")
+        python = sys.executable
     monkeypatch.setattr(pool.POOL, "_idle", [])
-    monkeypatch.setattr(sys, "executable", str(jpeg))
-    with pytest.raises(DrawingError, match="no decoder can be started"):
-        load_drawing(jpeg)
-    monkeypatch.setattr(sys, "executable", "")
-    with pytest.raises(DrawingError, match="no Python was found"):
+    monkeypatch.setattr(sys, "executable", python)
+    with pytest.raises(DrawingError, match="no process can be started to decode"):
         load_drawing(jpeg)
 
 

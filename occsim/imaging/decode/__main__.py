@@ -88,6 +88,8 @@ def main() -> None:
     limit_process()
     take_over_pillow()
     try:
+        _send(pipes[1], {"is_ready": True})
+        pipes[1].flush()
         serve(*pipes)
     except (MemoryError, BrokenPipeError, KeyboardInterrupt):
         os._exit(1)

@@ -100,8 +100,8 @@ class TrajectoryTable:
         if self.metres and frame is None:
             raise TrajectoryError(
                 f"positions in {self.name} are in metres; px in the drawing are needed "
-                "(columns x_px, y_px), or the drawing's metres per px and the place of "
-                "its lower left corner (frame=MetricFrame(...))"
+                "(columns x_px, y_px), or its scale, metres per px, and where its "
+                "lower left corner lies (a MetricFrame)"
             )
         if self.pixels and frame is not None:
             raise TrajectoryError(
