@@ -1,5 +1,6 @@
 """The evidence log: what the readings say, before any prior."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -172,19 +173,65 @@ def collect_evidence(
             f"grid must cover the world of {world.shape} px; got "
             f"({grid.height_px}, {grid.width_px}) px"
         )
-    faces = wall_faces(world.occupied)
     parts = []
-    for batch in _batches(len(trajectory), sensor, grid, faces):
-        view = View.of(trajectory.poses[batch], sensor)
-        parts.append(_read(world, faces, view, sensor, grid))
+    for counts in pixel_counts(world, trajectory.poses, sensor, grid):
+        parts.append(_entries(counts))
         if on_progress is not None:
-            on_progress(batch.stop, len(trajectory))
+            on_progress(counts.done, len(trajectory))
     sizes, cells, log_odds = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(sizes)])
     for array in (indptr, cells, log_odds):
         # The log remembers its totals: entries must not change under them.
         array.setflags(write=False)
     return EvidenceLog(grid=grid, indptr=indptr, cell=cells, log_odds=log_odds)
+
+
+@dataclass(frozen=True, eq=False)
+class PixelCounts:
+    """What a batch of N readings sees of the cells around, counted in pixels.
+
+    Parameters
+    ----------
+    done : int
+        Readings up to the end of this batch.
+    windows : Windows
+        The cells, `windows.size` counters in all.
+    n_empty, n_object : ndarray of int32, shape (windows.size,)
+        Pixels in view nearer than the hit, and at it or beyond.
+    """
+
+    done: int
+    windows: Windows
+    n_empty: CountArray
+    n_object: CountArray
+
+
+def pixel_counts(
+    world: World, poses: FloatArray, sensor: Sensor, grid: Grid
+) -> Iterator[PixelCounts]:
+    """Yield what readings see, one batch after another.
+
+    Parameters
+    ----------
+    world : World
+        Ground truth.
+    poses : ndarray of float64, shape (S, 3)
+        x_px, y_px, theta_rad of each reading.
+    sensor : Sensor
+        Range, field of view, what is said behind a hit.
+    grid : Grid
+        Cells over the world.
+
+    Yields
+    ------
+    PixelCounts
+    """
+    faces = wall_faces(world.occupied)
+    for batch in _batches(len(poses), sensor, grid, faces):
+        view = View.of(poses[batch], sensor)
+        windows = windows_around(view, grid)
+        n_empty, n_object = _count(world, faces, view, sensor, windows)
+        yield PixelCounts(batch.stop, windows, n_empty, n_object)
 
 
 def _batches(
@@ -203,15 +250,14 @@ def _batches(
     return [slice(start, min(start + size, n_readings)) for start in starts]
 
 
-def _read(
+def _count(
     world: World,
     faces: tuple[SideFaces, ...],
     view: View,
     sensor: Sensor,
-    grid: Grid,
-) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
-    """Return one batch of readings: entries of each, their cells and log-odds."""
-    windows = windows_around(view, grid)
+    windows: Windows,
+) -> tuple[CountArray, CountArray]:
+    """Return the empty and the object pixels of each cell of one batch."""
     seen = seen_faces(faces, world.occupied, view)
     if seen.reading.size > MANY_FACES * view.size:
         seen = without_hidden(seen, view)
@@ -228,13 +274,14 @@ def _read(
     counter, is_wall = own_pixels(world.occupied, windows, view)
     n_empty[counter] += ~is_wall
     n_object[counter] += is_wall
-    return _entries(n_empty, n_object, windows)
+    return n_empty, n_object
 
 
 def _entries(
-    n_empty: CountArray, n_object: CountArray, windows: Windows
+    counts: PixelCounts,
 ) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
     """Return the cells in view and what Eq. 4.22 says of them."""
+    windows, n_empty, n_object = counts.windows, counts.n_empty, counts.n_object
     in_view = (n_empty | n_object) != 0
     sizes = np.count_nonzero(in_view.reshape(windows.first_row.size, -1), axis=1)
     counter = np.flatnonzero(in_view)
