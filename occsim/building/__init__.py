@@ -1,6 +1,7 @@
 """A building: the drawing with everything that is needed to map it."""
 
 from occsim.building.make import (
+    TOUR_READINGS,
     building_from_drawing,
     building_from_sample,
     random_trajectory,
@@ -12,6 +13,7 @@ from occsim.building.reshape import cropped, straightened, turned
 
 __all__ = [
     "DOOR_WIDTH_M",
+    "TOUR_READINGS",
     "Building",
     "CorrectedMask",
     "building_from_drawing",

@@ -14,6 +14,9 @@ from occsim.trajectory import HeadingMode, Trajectory, resample
 from occsim.walls import WallParams, detect_walls
 from occsim.world import World, world_from_image
 
+TOUR_READINGS = 1000
+"""Most readings of the first tour of a drawing: a replay of more is long to watch."""
+
 
 def building_from_sample(name: str, params: WallParams | None = None) -> Building:
     """Return a reference drawing as a building, its walls detected.
@@ -62,7 +65,7 @@ def building_from_drawing(
     drawing : Drawing
         What the architect gave.
     sensor : Sensor
-        The tour is spaced to its range.
+        The tour shows the building to it, in `TOUR_READINGS` at most.
     params : WallParams, optional
         Settings of the detection; automatic by default.
     working_px : int, optional
@@ -87,7 +90,7 @@ def building_from_drawing(
     return Building(
         drawing=drawing,
         walls=CorrectedMask(found.mask),
-        trajectory=default_tour(world, sensor),
+        trajectory=default_tour(world, sensor, max_readings=TOUR_READINGS),
         wall_params=params,
         title=drawing.name,
         about=f"Scaled down from {width} × {height} px." if is_smaller else "",
