@@ -25,6 +25,9 @@ from occsim.trajectory import (
 from occsim.walls import WallParams, detect_walls
 from occsim.world import World, world_from_image
 
+TOUR_READINGS = 1000
+"""Most readings of the first tour of a drawing: a replay of more is long to watch."""
+
 DOOR_WIDTH_M = 0.9
 """Clear width of a usual door, m: the scale of a drawing that states none."""
 
@@ -231,7 +234,7 @@ class Building:
         )
         if self.trajectory is not self.tour:
             return moved
-        tour = default_tour(moved.world, moved.sensor)
+        tour = _first_tour(moved.world, moved.sensor)
         return replace(moved, found=moved.walls_found, trajectory=tour, tour=tour)
 
 
@@ -268,7 +271,7 @@ def building_from_drawing(
     drawing : Drawing
         What the architect gave.
     sensor : Sensor
-        The tour is spaced to its range.
+        The tour shows the building to it, in `TOUR_READINGS` at most.
     params : WallParams, optional
         Settings of the detection; automatic by default.
     working_px : int, optional
@@ -289,7 +292,7 @@ def building_from_drawing(
     is_smaller = drawing.shape != (height, width)
     params = params or WallParams()
     found = detect_walls(drawing, params).mask
-    tour = default_tour(World(occupied=found), sensor)
+    tour = _first_tour(World(occupied=found), sensor)
     return Building(
         drawing=drawing,
         found=found,
@@ -322,6 +325,10 @@ def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:
     fit = Transform.fit(image.shape, max(shape))
     mask = world_from_image(image).occupied
     return fit.mask(mask) if fit.new_shape == shape else mask
+
+
+def _first_tour(world: World, sensor: Sensor) -> Trajectory:
+    return default_tour(world, sensor, max_readings=TOUR_READINGS)
 
 
 def random_trajectory(world: World, n: int, seed: int) -> Trajectory:

@@ -1,6 +1,7 @@
 """The evidence log: what the readings say, before any prior."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -207,13 +208,11 @@ def _parts(
     grid: Grid,
     on_progress: Progress | None,
 ) -> Iterator[EvidenceLog]:
-    faces = _faces_of(world)
-    for batch in _batches(len(trajectory), sensor, grid, faces):
-        view = View.of(trajectory.poses[batch], sensor)
-        sizes, cell, log_odds = _read(world, faces, view, sensor, grid)
+    for counts in pixel_counts(world, trajectory.poses, sensor, grid):
+        sizes, cell, log_odds = _entries(counts)
         yield EvidenceLog.known_sound(grid, _ends(sizes), cell, log_odds)
         if on_progress is not None:
-            on_progress(batch.stop, len(trajectory))
+            on_progress(counts.done, len(trajectory))
 
 
 def _ends(sizes: IntArray) -> IntArray:
@@ -233,6 +232,54 @@ def _faces_of(world: World) -> WallFaces:
     return faces
 
 
+@dataclass(frozen=True, eq=False)
+class PixelCounts:
+    """What a batch of N readings sees of the cells around, counted in pixels.
+
+    Parameters
+    ----------
+    done : int
+        Readings up to the end of this batch.
+    windows : Windows
+        The cells, `windows.size` counters in all.
+    n_empty, n_object : ndarray of int32, shape (windows.size,)
+        Pixels in view nearer than the hit, and at it or beyond.
+    """
+
+    done: int
+    windows: Windows
+    n_empty: CountArray
+    n_object: CountArray
+
+
+def pixel_counts(
+    world: World, poses: FloatArray, sensor: Sensor, grid: Grid
+) -> Iterator[PixelCounts]:
+    """Yield what readings see, one batch after another.
+
+    Parameters
+    ----------
+    world : World
+        Ground truth.
+    poses : ndarray of float64, shape (S, 3)
+        x_px, y_px, theta_rad of each reading.
+    sensor : Sensor
+        Range, field of view, what is said behind a hit.
+    grid : Grid
+        Cells over the world.
+
+    Yields
+    ------
+    PixelCounts
+    """
+    faces = _faces_of(world)
+    for batch in _batches(len(poses), sensor, grid, faces):
+        view = View.of(poses[batch], sensor)
+        windows = windows_around(view, grid)
+        n_empty, n_object = _count(world, faces, view, sensor, windows)
+        yield PixelCounts(batch.stop, windows, n_empty, n_object)
+
+
 def _batches(
     n_readings: int, sensor: Sensor, grid: Grid, faces: WallFaces
 ) -> list[slice]:
@@ -249,15 +296,14 @@ def _batches(
     return [slice(start, min(start + size, n_readings)) for start in starts]
 
 
-def _read(
+def _count(
     world: World,
     faces: WallFaces,
     view: View,
     sensor: Sensor,
-    grid: Grid,
-) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
-    """Return one batch of readings: entries of each, their cells and log-odds."""
-    windows = windows_around(view, grid)
+    windows: Windows,
+) -> tuple[CountArray, CountArray]:
+    """Return the empty and the object pixels of each cell of one batch."""
     seen = seen_faces(faces, world.occupied, view)
     if seen.reading.size > MANY_FACES * view.size:
         seen = without_hidden(seen, view)
@@ -273,13 +319,14 @@ def _read(
     counter, is_wall = own_pixels(world.occupied, windows, view)
     n_empty[counter] += ~is_wall
     n_object[counter] += is_wall
-    return _entries(n_empty, n_object, windows)
+    return n_empty, n_object
 
 
 def _entries(
-    n_empty: CountArray, n_object: CountArray, windows: Windows
+    counts: PixelCounts,
 ) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
     """Return the cells in view and what Eq. 4.22 says of them."""
+    windows, n_empty, n_object = counts.windows, counts.n_empty, counts.n_object
     in_view = (n_empty | n_object) != 0
     sizes = np.count_nonzero(in_view.reshape(windows.first_row.size, -1), axis=1)
     counter = np.flatnonzero(in_view)

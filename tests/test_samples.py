@@ -113,13 +113,6 @@ def test_truth_and_drawing_are_as_the_script_makes_them(name):
     assert difference.mean() < 1.0
 
 
-@pytest.mark.parametrize("name", ["b", "d"])
-def test_trajectories_are_as_the_script_makes_them(name):
-    poses = build.tour_of(build.BRIEFS[name], wall_pixels(name) == 0)
-    made = build.csv(name, build.BRIEFS[name], poses)
-    assert made == (FOLDER / f"{name}_trajectory.csv").read_bytes()
-
-
 def test_the_index_is_as_the_script_makes_it():
     assert build.index() == (FOLDER / "samples.json").read_bytes()
 

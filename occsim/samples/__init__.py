@@ -4,7 +4,8 @@ They are drawings of this project of the five kinds that the source uses [1]_: (
 labelled floor plan, (b) a furnished one, (c) a section with stairs and double doors,
 (d) a section of walls and doors only, (e) a section with text and a door at an angle.
 The ground truths hold structure only. The files beside this module are package data;
-``python -m assets.samples.make`` makes them in a checkout.
+``python -m assets.samples.make`` makes drawings and truths in a checkout; the
+trajectories are data.
 
 References
 ----------

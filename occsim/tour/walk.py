@@ -8,9 +8,14 @@ import numpy as np
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.tour.lattice import Lattice
 
-# Improving the order of more positions than this takes longer than it is worth.
-_MAX_IMPROVED = 250
-_IMPROVEMENTS = 300
+# Over all reversals; later passes shorten the walk by less than a hundredth.
+_PASSES = 8
+_LEAST_GAIN = 1e-6
+# Of more positions than these, only the ways to near ones are all known: as near as so
+# many steps from neighbour to neighbour.
+_ALL_PAIRS = 800
+_NEAR_STEPS = 12.0
+_FAR = 1e9
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -23,12 +28,20 @@ class _Links:
     """
 
     toward: IntArray  # (N,) next node on the way to the node's own position
-    distance_px: FloatArray  # (K, K) along free space; inf where there is no way
-    via: IntArray  # (K, K) last position before the second on the way from the first
+    graph: Any  # (K, K) cost of the way between neighbours
     gate: dict[tuple[int, int], tuple[int, int]]  # neighbours: nodes where they meet
+    cost: FloatArray  # (K, K) of the way from each to each; _FAR where not known
+    via: IntArray  # (K, K) last position before the second on the way from the first
+
+    def ways_from(self, start: int) -> tuple[FloatArray, IntArray]:
+        """Return that position's costs and last positions, (K,), near or far."""
+        from scipy.sparse.csgraph import dijkstra
+
+        cost, via = dijkstra(self.graph, indices=start, return_predecessors=True)
+        return cost, via
 
 
-def shortest_walk(lattice: Lattice, positions: IntArray) -> list[IntArray]:
+def shortest_walk(lattice: Lattice, positions: IntArray) -> list[tuple[int, IntArray]]:
     """Return a short walk through all positions.
 
     Parameters
@@ -36,25 +49,23 @@ def shortest_walk(lattice: Lattice, positions: IntArray) -> list[IntArray]:
     lattice : Lattice
         Free space.
     positions : ndarray of int64, shape (K,)
-        Nodes in one connected part of it, K at least 1.
+        Different nodes in one connected part of it, K at least 1.
 
     Returns
     -------
-    list of ndarray of int64
-        K legs. Each is the nodes from one position (left out) to the next
-        (its last); the first leg is the first position alone.
+    list of (int, ndarray of int64)
+        Of each position in the order of the walk, its index, and the nodes that lead
+        to it from the one before, which is left out.
 
     Notes
     -----
     Nearest neighbour first, then 2-opt; not the shortest walk there is.
     """
-    if len(positions) == 1:
-        return [positions]
     links = _link(lattice, positions)
-    order = _improved(links.distance_px, _nearest_first(links.distance_px))
-    legs = [positions[order[:1]]]
+    order = _improved(links.cost, _nearest_first(links)).tolist()
+    legs = [(order[0], positions[order[:1]])]
     for start, end in zip(order[:-1], order[1:], strict=True):
-        legs.append(_way(links, positions, start, end))
+        legs.append((end, _way(links, start, end)))
     return legs
 
 
@@ -80,17 +91,21 @@ def _link(lattice: Lattice, positions: IntArray) -> _Links:
     best = by_length[first]
     ends = owner[start[best]], owner[end[best]]
     graph = coo_array((length[best], ends), (len(positions),) * 2).tocsr()
-    distance, via = dijkstra(graph, return_predecessors=True)
+    near = _NEAR_STEPS * np.median(graph.data) if len(positions) > _ALL_PAIRS else _FAR
+    cost, via = dijkstra(graph, return_predecessors=True, limit=near)
+    cost[np.isinf(cost)] = _FAR
     meet = zip(start[best].tolist(), end[best].tolist(), strict=True)
     gate = dict(zip(zip(*map(np.ndarray.tolist, ends), strict=True), meet, strict=True))
-    return _Links(toward=toward, distance_px=distance, via=via, gate=gate)
+    return _Links(toward=toward, graph=graph, gate=gate, cost=cost, via=via)
 
 
-def _way(links: _Links, positions: IntArray, start: int, end: int) -> IntArray:
+def _way(links: _Links, start: int, end: int) -> IntArray:
     """Return the nodes from one position (left out) to another, by the shortest way."""
+    is_near = links.cost[start, end] < _FAR
+    via = links.via[start] if is_near else links.ways_from(start)[1]
     stops = [end]
     while stops[-1] != start:
-        stops.append(int(links.via[start, stops[-1]]))
+        stops.append(int(via[stops[-1]]))
     nodes: list[int] = []
     for here, there in zip(stops[::-1][:-1], stops[::-1][1:], strict=True):
         leave, enter = links.gate[here, there]
@@ -106,81 +121,96 @@ def _home(links: _Links, node: int) -> list[int]:
     return way
 
 
-def _nearest_first(distance: FloatArray) -> list[int]:
-    """Order by nearest neighbour, from one end of the two that are farthest apart."""
-    start = int(np.argmax(np.where(np.isfinite(distance), distance, -1.0).max(axis=1)))
-    order = [start]
-    left = np.ones(len(distance), bool)
-    left[start] = False
+def _nearest_first(links: _Links) -> list[int]:
+    """Order by nearest neighbour, from an end of the two that are farthest apart."""
+    order = [int(np.argmax(links.cost.max(axis=1)))]
+    left = np.ones(len(links.cost), bool)
+    left[order[0]] = False
     while left.any():
-        order.append(int(np.argmin(np.where(left, distance[order[-1]], np.inf))))
-        if not left[order[-1]]:  # no way to what is left
-            raise AssertionError("positions must be connected")
+        cost = np.where(left, links.cost[order[-1]], np.inf)
+        if cost.min() == _FAR:
+            cost = np.where(left, links.ways_from(order[-1])[0], np.inf)
+        order.append(int(np.argmin(cost)))
         left[order[-1]] = False
     return order
 
 
-def _improved(distance: FloatArray, order: list[int]) -> list[int]:
-    """Reverse stretches of the walk, the most rewarding first, while any rewards."""
-    if not 3 < len(order) <= _MAX_IMPROVED:
-        return order
+def _improved(cost: FloatArray, order: list[int]) -> IntArray:
+    """Reverse stretches of the walk while any reversal makes it shorter (2-opt)."""
     walk = np.array(order)
-    later = np.triu(np.ones((len(walk) - 1, len(walk)), bool), 1)
-    for _ in range(_IMPROVEMENTS):
-        between = distance[np.ix_(walk, walk)]
-        # Reversing walk[i+1..j] replaces the links i to i+1 and j to j+1 by i to j and
-        # i+1 to j+1; after the last position there is no link.
-        link = np.append(np.diagonal(between, 1), 0.0)
-        joined = np.pad(between[1:, 1:], ((0, 0), (0, 1)))
-        gain = link[:-1, None] + link[None, :] - between[:-1] - joined
-        gain = np.where(later, gain, 0.0)
-        i, j = np.unravel_index(int(np.argmax(gain)), gain.shape)
-        if gain[i, j] <= 1e-6:
+    for _ in range(_PASSES):
+        before = walk.copy()
+        for i in range(len(walk) - 2):
+            # Reversing walk[i+1..j] replaces the links i to i+1 and j to j+1 by i to j
+            # and i+1 to j+1; after the last position there is no link.
+            here, ahead, later = walk[i], walk[i + 1], walk[i + 2 :]
+            gain = cost[here, ahead] - cost[here, later]
+            gain[:-1] += cost[later[:-1], later[1:]] - cost[ahead, later[1:]]
+            j = int(np.argmax(gain))
+            if gain[j] > _LEAST_GAIN:
+                walk[i + 1 : i + 3 + j] = walk[i + 1 : i + 3 + j][::-1].copy()
+        if np.array_equal(walk, before):
             break
-        walk[i + 1 : j + 1] = walk[i + 1 : j + 1][::-1].copy()
-    return [int(position) for position in walk]
+    return walk
 
 
-def corners(free: BoolArray, points_px: FloatArray) -> IntArray:
-    """Return which points of a way to keep, so that straight lines between are free.
+def corners(roomy: BoolArray, free: BoolArray, points_px: FloatArray) -> IntArray:
+    """Return which points of a way to keep, so that straight steps between are free.
 
     Parameters
     ----------
+    roomy : ndarray of bool, shape (H, W)
+        Where steps should stay.
     free : ndarray of bool, shape (H, W)
-        Where a robot may stand.
+        Where they may go as long as the way leaves them no choice.
     points_px : ndarray of float64, shape (L, 2)
-        x, y; each step is free. L at least 1.
+        x, y; the line from each to the next is free. L at least 1.
 
     Returns
     -------
     ndarray of int64
         Indices, the first and the last point among them.
     """
+    cols, rows = np.floor(points_px).astype(np.int64).T
+    tight = ~roomy[rows, cols]
     kept = [0]
     last = len(points_px) - 1
     while (here := kept[-1]) < last:
-        seen, hidden = here + 1, last
-        if straight_is_free(free, points_px[here], points_px[last]):
-            seen = last
-        # Halving finds the farthest point in sight where sight, once lost, stays
-        # lost; elsewhere it finds a nearer one, which does as well.
-        while seen != last and hidden - seen > 1:
-            middle = (seen + hidden) // 2
-            if straight_is_free(free, points_px[here], points_px[middle]):
-                seen = middle
-            else:
-                hidden = middle
+        seen = _farthest(roomy, points_px, here, last)
+        if seen == here + 1 and (tight[here] or tight[seen]):
+            # As far as the narrow place goes, and no corner of a room is cut.
+            roomy_again = np.flatnonzero(~tight[seen:])
+            stop = seen + int(roomy_again[0]) if roomy_again.size else last
+            seen = _farthest(free, points_px, here, stop)
         kept.append(seen)
     return np.array(kept, dtype=np.int64)
 
 
+def _farthest(free: BoolArray, points_px: FloatArray, here: int, last: int) -> int:
+    """Return the farthest point, up to the last, that a step leads to; at least one on.
+
+    Halving finds it where sight, once lost, stays lost; elsewhere it finds a nearer
+    one, which does as well.
+    """
+    if straight_is_free(free, points_px[here], points_px[last]):
+        return last
+    seen, hidden = here + 1, last
+    while hidden - seen > 1:
+        middle = (seen + hidden) // 2
+        if straight_is_free(free, points_px[here], points_px[middle]):
+            seen = middle
+        else:
+            hidden = middle
+    return seen
+
+
 def straight_is_free(free: BoolArray, start_px: Any, end_px: Any) -> bool:
-    """Return whether every pixel on the straight line between two points is free.
+    """Return whether the pixels on the straight line between two points are free.
 
     Parameters
     ----------
     free : ndarray of bool, shape (H, W)
-        Where a robot may stand.
+        Where a robot may go.
     start_px, end_px : array_like of shape (2,)
         x, y inside the drawing.
 

@@ -5,10 +5,10 @@ from functools import partial
 import streamlit as st
 
 from occsim import HeadingMode, Trajectory, TrajectoryFormat, dump_trajectory
-from occsim.building import random_trajectory, sketched_trajectory
+from occsim.building import TOUR_READINGS, random_trajectory, sketched_trajectory
 from occsim.corrections import pack_mask
 from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
-from occsim.tour import coverage_tour, default_tour
+from occsim.tour import MAX_READINGS, default_tour
 from pages._ui import state, uploads
 from pages._ui.components.board import BoardDocument, BoardMode, BoardPoint
 from pages._ui.state import boards as kept
@@ -137,15 +137,15 @@ def _follow(sketch: Sketch) -> None:
 
 def _plan() -> None:
     st.slider(
-        "Spacing (px)",
-        5,
-        200,
-        help="Between positions of a tour that covers the free space through its "
-        "doors, with four headings each.",
-        **state.bind_view("spacing_px", 30),
+        "Readings at most",
+        20,
+        MAX_READINGS,
+        step=20,
+        help="A tour takes as many as it needs to show the inside of the building to "
+        "this sensor. Where that is more, it takes those that show most.",
+        **state.bind_view("max_readings", TOUR_READINGS),
     )
-    _plan_button("Cover the free space", _cover)
-    _plan_button("Tour for this sensor", _tour)
+    _plan_button("Plan a tour for this sensor", _tour)
     st.number_input("Random poses", 1, 5000, **state.bind_view("n_random", 300))
     st.number_input("Seed", 0, 9999, **state.bind_view("pose_seed", 1))
     _plan_button("Draw random poses", _random)
@@ -155,13 +155,12 @@ def _plan_button(label: str, make: object) -> None:
     st.button(label, on_click=state.edit, args=(make,), width="stretch")
 
 
-def _cover() -> None:
-    tour = coverage_tour(state.building().world, float(state.view("spacing_px", 30)))
-    state.edit_building(trajectory=tour)
-
-
 def _tour() -> None:
-    tour = default_tour(state.building().world, state.settings().sensor)
+    tour = default_tour(
+        state.building().world,
+        state.settings().sensor,
+        max_readings=int(state.view("max_readings", TOUR_READINGS)),
+    )
     state.edit_building(trajectory=tour)
 
 
