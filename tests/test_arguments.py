@@ -243,8 +243,19 @@ GOOD = {
         "file_format": "csv",
         "degrees": False,
     },
-    "load_drawing": {"source": b"", "name": "plan"},
-    "load_trajectory": {"source": b"0 0 0", "name": "tour.txt", "degrees": True},
+    "load_drawing": {
+        "source": b"",
+        "name": "plan",
+        "max_side_px": 100,
+        "keep_dark": False,
+        "allow_robot_map": False,
+    },
+    "load_trajectory": {
+        "source": b"0 0 0",
+        "name": "tour.txt",
+        "degrees": True,
+        "frame": None,
+    },
     "load_sample": {"name": "a"},
     "resample": {
         "waypoints_px": [(0, 0), (1, 1)],
