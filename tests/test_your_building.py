@@ -32,6 +32,9 @@ SECTIONS = (
 WAYS = ("Sketch", "Plan", "Table", "Files")
 
 
+POSES = b"x_px,y_px,theta_deg\n100,100,0\n110,100,90\n"
+
+
 def at(section, app=None, **views):
     """The page at one of its sections."""
     app = app or launch(PAGE)
@@ -125,7 +128,7 @@ def test_a_large_drawing_is_worked_on_at_the_size_that_is_shown():
     app = upload(app, "Drawing", "large.png", png(rooms(700, 1000)))
     assert own(app).drawing.shape == (350, 500)
     shown = "500 × 350 px. Scaled down from 1000 × 700 px."
-    assert any(caption.value == shown for caption in app.caption)
+    assert shown in said(app.caption)
 
 
 def test_turning_and_undoing():
@@ -198,7 +201,7 @@ def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
     slider = next(s for s in app.slider if s.key and s.key.startswith("wall_"))
     slider.set_value(slider.max).run()
     assert not app.exception
-    field = slider.key.removeprefix("wall_")
+    field = slider.key.removeprefix("wall_").split(":")[0]
     assert getattr(own(app).wall_params, field) == slider.max
     assert own(app).wall_mask[80, 50]
 
@@ -236,21 +239,20 @@ def test_undone_strokes_leave_the_mask():
     assert not own(app).wall_mask[80, 50]
 
 
-def test_an_edit_that_the_next_stroke_cut_short_is_finished():
-    app = at("4 Corrections", with_rooms())
-    boards = app.session_state["boards"]
-    held = boards["board_walls"]
-    # As it stands where the board knows of the stroke and the building does not yet.
-    boards["board_walls"] = replace(
-        held,
-        current=replace(held.current, overlay=dots(80)),
-        source=("the mask that was about to be kept",),
-        before=held.source,
-    )
-    app.run()
-    assert not app.exception
-    assert own(app).corrections == dots(80)
-    assert app.session_state["boards"]["board_walls"].imposed is held.imposed
+def test_a_pose_edited_in_the_table_is_there_when_the_table_is_opened_again():
+    """x from 100 to 101, a look at Files, the table again: 101, also after an undo."""
+    app = with_rooms()
+    app = upload(at("6 Trajectory", app, way="Files"), "Trajectory", "a.csv", POSES)
+    app = at("6 Trajectory", app, way="Table")
+    first = app.session_state["table"]
+    edit = {"edited_rows": {0: {"x_px": 101.0}}, "added_rows": [], "deleted_rows": []}
+    app.session_state[first.key] = edit
+    app = at("6 Trajectory", app, way="Files")
+    app = at("6 Trajectory", app, way="Table")
+    again = app.session_state["table"]
+    assert again.rev > first.rev
+    assert again.source is own(app).trajectory
+    assert again.given["x_px"][0] == own(app).trajectory.poses[0, 0]
 
 
 def test_a_commit_that_makes_no_sense_changes_nothing():

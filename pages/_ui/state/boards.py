@@ -1,7 +1,6 @@
 """What the page "Your building" keeps of its boards and its table between runs."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,6 +10,7 @@ from occsim import Trajectory
 from pages._ui.components.board import BoardDocument, BoardMode, decode_commit
 from pages._ui.state.chosen import building
 from pages._ui.state.edits import edit, edit_building
+from pages._ui.state.widgets import renewed
 
 Columns = dict[str, list[float | None]]
 Source = tuple[object, ...]
@@ -19,65 +19,74 @@ Source = tuple[object, ...]
 
 def bind_wall(field: str, change: Callable[[str, Any], None]) -> dict[str, Any]:
     """Return ``key`` and ``on_change`` that tie a widget to a wall parameter."""
-    key = f"wall_{field}"
+    key = renewed(f"wall_{field}")
     st.session_state[key] = getattr(building().wall_params, field)
-    return {
-        "key": key,
-        "on_change": lambda: edit(
-            lambda: change(field, st.session_state[key]), tag=key
-        ),
-    }
+    return {"key": key, "on_change": _take_wall, "args": (field, key, change)}
 
 
-def table(columns: Callable[[Trajectory], Columns]) -> tuple[int, Columns]:
-    """What the table of poses starts from, and a number that is new when it is new.
+def _take_wall(field: str, key: str, change: Callable[[str, Any], None]) -> None:
+    if key == renewed(f"wall_{field}") and key in st.session_state:
+        edit(lambda: change(field, st.session_state[key]), tag=f"wall_{field}")
 
-    An editor keeps its edits only while it is given the same values again, so they stay
-    what they were until the trajectory is changed elsewhere.
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The table of poses: what its editor was given, of what, and what it last held.
+
+    An editor keeps its edits only while it is on the screen and is given the same
+    values again; `rev` is new whenever it is given others.
+    """
+
+    rev: int
+    source: Trajectory
+    given: Columns
+    last: Columns
+
+    @property
+    def key(self) -> str:
+        """Key of the editor."""
+        return f"pose_table_{self.rev}"
+
+
+def table(columns: Callable[[Trajectory], Columns]) -> Table:
+    """What the table of poses starts from.
+
+    The trajectory as it is now, where the table was left and entered again, or where
+    the trajectory was changed elsewhere.
     """
     state = st.session_state
-    rev, source, given, _ = state.get("table", (0, None, {}, {}))
-    if source is not building().trajectory:
-        rev, source, given = rev + 1, building().trajectory, None
-    if given is None:
-        given = columns(source)
-        state.table = rev, source, given, given
-    return rev, given
+    held: Table | None = state.get("table")
+    now = building().trajectory
+    if held is None or held.source is not now or held.key not in state:
+        given = columns(now)
+        held = Table(held.rev + 1 if held else 1, now, given, given)
+        state.table = held
+    return held
 
 
 def table_is_new(edited: Columns) -> bool:
     """Whether the table holds other values than it did in the last run."""
-    return bool(st.session_state.table[3] != edited)
+    return bool(st.session_state.table.last != edited)
 
 
 def take_table(trajectory: Trajectory) -> None:
     """Take over the trajectory of an edited table, which stays as it is."""
-    state = st.session_state
-    rev, _, given, last = state.table
     edit_building(trajectory=trajectory)
-    state.table = rev, trajectory, given, last
+    st.session_state.table = replace(st.session_state.table, source=trajectory)
 
 
 def note_table(edited: Columns) -> None:
     """Note what the table holds, so that it is taken, or complained of, once."""
-    state = st.session_state
-    rev, source, given, _ = state.table
-    state.table = rev, source, given, edited
+    st.session_state.table = replace(st.session_state.table, last=edited)
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A drawing board: the document imposed on it, what it holds now, and of what.
-
-    The next stroke may stop a script at any look at the session's state, even between
-    two changes that belong together. So that none is lost, `before` says of which parts
-    of the building an edit was begun that may not have reached it.
-    """
+    """A drawing board: the document imposed on it, what it holds now, and of what."""
 
     imposed: BoardDocument
     current: BoardDocument
     source: Source
-    before: Source | None = None
 
 
 def board_document(
@@ -117,24 +126,11 @@ def on_board(key: str) -> BoardDocument:
     return st.session_state.boards[key].current
 
 
-@contextmanager
-def taking(
-    key: str, drawn: BoardDocument, before: Source, after: Source
-) -> Iterator[None]:
-    """Note what was drawn on a board, around the edit that brings it to the building.
+def note(key: str, drawn: BoardDocument, source: Source) -> None:
+    """Note what a board holds, and the parts of the building that this is.
 
-    `before` and `after` are the parts of the building that the board shows.
+    Part of the edit that brings it to the building: an edit that is cut short is done
+    again as a whole.
     """
     boards = st.session_state.boards
-    held = replace(boards[key], current=drawn, source=after)
-    boards[key] = replace(held, before=before)
-    yield
-    boards[key] = held
-
-
-def unfinished(key: str, source: Source) -> BoardDocument | None:
-    """What was drawn on a board and did not reach the building, if anything."""
-    held = st.session_state.get("boards", {}).get(key)
-    if held is None or held.before is None or not _are_same(held.before, source):
-        return None
-    return held.current
+    boards[key] = replace(boards[key], current=drawn, source=source)

@@ -79,12 +79,8 @@ def link_notice(path: str) -> str:
 
 def defaults(name: str) -> Settings:
     """The settings that a drawing opens with: the range is the length of its doors."""
-    if name == OWN:
-        door_px = st.session_state.own.door_px
-    else:
-        door_px = load_sample(name).sensor.range_px
-    if door_px is None:
-        return Settings()
+    own = st.session_state.own if name == OWN else load_sample(name)
+    door_px = own.door_px or own.sensor.range_px
     bounds = TABLE["range_px"]
     return Settings(range_px=round(min(max(door_px, bounds.low), bounds.high)))
 

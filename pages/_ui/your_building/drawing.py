@@ -6,7 +6,7 @@ from functools import partial
 import streamlit as st
 
 from occsim.imaging.transform import Transform
-from pages._ui import compute, state, uploads
+from pages._ui import compute, state, uploads, words
 from pages._ui.components.board import BoardMode, BoardPoint
 from pages._ui.your_building import drawn, lengths
 
@@ -29,7 +29,7 @@ def show() -> None:
             "brought. More pixels show thinner walls and take longer.",
             **state.bind_view(uploads.WORKING, uploads.WORKING_PX),
         )
-        st.caption(f"{lengths.size()}. {state.building().about}")
+        st.caption(f"{lengths.size()}. {words.plain(state.building().about)}")
         with st.container(horizontal=True):
             st.button("Turn left", on_click=state.edit, args=(partial(_turn, -1),))
             st.button("Turn right", on_click=state.edit, args=(partial(_turn, 1),))

@@ -1,8 +1,8 @@
 """The drawing board of this page, tied to the building that is drawn on."""
 
 from collections.abc import Callable
+from functools import partial
 
-from occsim import Corrections
 from occsim.corrections import pack_mask
 from pages._ui import compute, state
 from pages._ui.components.board import (
@@ -24,21 +24,22 @@ def board(
     make: Callable[[], BoardDocument],
     take: Callable[[BoardDocument], None],
 ) -> BoardDocument:
-    """Show a board; return what it holds.
+    """Show a board of some parts of the building, `source`; return what it holds.
 
-    What a hand has changed is given to `take`: in the callback, before the script runs,
-    so that all of the page speaks of it; after the script, for a commit that came
-    without its callback; before it, for an edit that the last stroke cut short.
+    What a hand has changed is given to `take`, an edit that can be taken back: in the
+    callback, before the script runs, so that all of the page speaks of it; after the
+    script, for a commit that came without its callback.
     """
 
     def take_new(drawn: BoardDocument | None) -> None:
         if drawn is not None and drawn != kept.on_board(key):
-            take(drawn)
+            state.edit(partial(_taken, drawn), tag=key)
+
+    def _taken(drawn: BoardDocument) -> None:
+        take(drawn)
+        kept.note(key, drawn, source())
 
     building = state.building()
-    cut_short = kept.unfinished(key, source())
-    if cut_short is not None:
-        take(cut_short)
     returned = drawing_board(
         compute.backdrop(building.drawing),
         kept.board_document(key, source(), make),
@@ -61,20 +62,15 @@ def document(**contents: object) -> BoardDocument:
 def walls_board(key: str) -> None:
     """Show the board that corrects the walls found."""
 
-    def source(corrections: Corrections) -> kept.Source:
-        return state.building().walls_found, corrections
-
     def shown() -> kept.Source:
-        return source(state.building().corrections)
+        return state.building().walls_found, state.building().corrections
 
     def make() -> BoardDocument:
         found, corrections = shown()
         return document(base=pack_mask(found), overlay=corrections)
 
     def take(drawn: BoardDocument) -> None:
-        after = drawn.corrections
-        with kept.taking(key, drawn, shown(), source(after)):
-            state.edit(lambda: state.edit_building(corrections=after), tag=key)
+        state.edit_building(corrections=drawn.corrections)
 
     board(key, BoardMode.WALLS, shown, make, take)
 
@@ -85,18 +81,13 @@ def truth_board(key: str) -> None:
     def shown() -> kept.Source:
         return (state.building().truth,)
 
-    def take(drawn: BoardDocument) -> None:
-        after = drawn.mask()
-        with kept.taking(key, drawn, shown(), (after,)):
-            state.edit(lambda: state.edit_building(truth=after), tag=key)
+    def make() -> BoardDocument:
+        return document(base=pack_mask(state.building().truth))
 
-    board(
-        key,
-        BoardMode.WALLS,
-        shown,
-        lambda: document(base=pack_mask(state.building().truth)),
-        take,
-    )
+    def take(drawn: BoardDocument) -> None:
+        state.edit_building(truth=drawn.mask())
+
+    board(key, BoardMode.WALLS, shown, make, take)
 
 
 def points_board(
@@ -112,8 +103,4 @@ def points_board(
     def source() -> kept.Source:
         return (state.building().drawing,)
 
-    def take(drawn: BoardDocument) -> None:
-        with kept.taking(key, drawn, source(), source()):
-            use(drawn.points)
-
-    return board(key, mode, source, document, take).points
+    return board(key, mode, source, document, lambda drawn: use(drawn.points)).points

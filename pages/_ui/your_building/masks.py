@@ -45,9 +45,8 @@ def correct() -> None:
         agreement()
         with st.expander("Leave a false wall in: will the map show it?"):
             st.markdown(
-                "Not where the robot looks: with *subtract prior* the first reading "
-                "cancels the prior, and at p_wall = 0.2 one clear reading outweighs it "
-                "with *prior once* as well. Where it never looks, the error stays."
+                r"Not where the robot looks: at $p_\text{wall} = 0.2$ one clear "
+                "reading outweighs the prior. Where it never looks, the error stays."
             )
         _download(building.wall_mask, "walls.png", "Wall mask (PNG)")
 

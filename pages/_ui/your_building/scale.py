@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from functools import partial
 
 import streamlit as st
 
@@ -42,16 +41,11 @@ def _take(ends: tuple[BoardPoint, ...]) -> None:
     door_px = math.dist(*((end.x_px, end.y_px) for end in ends)) if ends else 0.0
     if not door_px:
         return
-    scale = {
-        "door_px": door_px,
-        "metres_per_px": _width_m() / door_px,
-        "sensor": replace(state.building().sensor, range_px=door_px),
-    }
-    state.edit(partial(_measured, scale), tag=KEY)
-
-
-def _measured(scale: dict[str, object]) -> None:
-    state.edit_building(**scale)
+    state.edit_building(
+        door_px=door_px,
+        metres_per_px=_width_m() / door_px,
+        sensor=replace(state.building().sensor, range_px=door_px),
+    )
     state.set_range_to_door()
 
 

@@ -113,10 +113,7 @@ def _sketched() -> BoardDocument:
 
 
 def _take_sketch(document: BoardDocument) -> None:
-    sketch = tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points)
-    before = _shown()
-    with kept.taking(KEY, document, before, (*before[:-1], sketch)):
-        state.edit(partial(_follow, sketch), tag=KEY)
+    _follow(tuple((p.x_px, p.y_px, p.is_waypoint) for p in document.points))
 
 
 def _follow(sketch: Sketch) -> None:
@@ -175,12 +172,12 @@ def _random() -> None:
 
 
 def _table() -> None:
-    rev, columns = kept.table(pose_columns)
+    table = kept.table(pose_columns)
     edited = st.data_editor(
-        columns,
+        table.given,
         num_rows="dynamic",
         height=380,
-        key=f"pose_table_{rev}",
+        key=table.key,
         column_config={
             "x_px": st.column_config.NumberColumn("x (px)", format="%.2f"),
             "y_px": st.column_config.NumberColumn("y (px)", format="%.2f"),

@@ -29,7 +29,7 @@ def show() -> None:
 
 def _stage(title: str, image: bytes) -> None:
     note = STAGE_NOTES[title]
-    st.image(image, width="stretch")
+    st.image(image, width="stretch", alt=f"Wall detection: {title}")
     st.markdown(f"**{title}**")
     st.caption(note.sentence)
     for slider in note.sliders:
@@ -47,7 +47,11 @@ def _slider(slider: Slider) -> None:
 
 
 def _errors() -> None:
-    st.image(masks.error_picture(), width="stretch")
+    st.image(
+        masks.error_picture(),
+        width="stretch",
+        alt="The wall mask compared with the ground truth",
+    )
     if state.building().truth is None:
         st.markdown("**Wall mask**")
     else:
