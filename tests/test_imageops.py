@@ -1,12 +1,14 @@
 """One transform: working size, crop, quarter turns and straightening."""
 
+import math
+
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from occsim.errors import DrawingError, ParameterError
-from occsim.imaging import Drawing
+from occsim.imaging import MAX_PIXELS, Drawing
 from occsim.imaging.transform import Transform
 
 
@@ -140,8 +142,9 @@ def test_large_tilt_is_refused():
         Transform.straighten((20, 20), 1.0)
     with pytest.raises(ParameterError, match="got nan"):
         Transform.straighten((20, 20), float("nan"))
-    with pytest.raises(DrawingError, match="at most 40 megapixels; turned upright"):
-        Transform.straighten((6000, 6000), 0.5)
+    side = math.isqrt(MAX_PIXELS)
+    with pytest.raises(DrawingError, match="megapixels; turned upright it would have"):
+        Transform.straighten((side, side), 0.5)
 
 
 # --- Masks ----------------------------------------------------------------------------
@@ -154,14 +157,17 @@ def test_large_tilt_is_refused():
     st.integers(8, 59),
     st.integers(0, 2**32 - 1),
 )
+@example(60, 107, 8, 709)  # a centre falls on an edge, 53.5 * 8 / 107 = 4
 def test_no_wall_pixel_is_lost_when_a_mask_is_shrunk(height, width, side, seed):
     """Counted by a loop: each wall pixel's centre falls into a wall pixel."""
     mask = np.random.default_rng(seed).random((height, width)) < 0.01
     fit = Transform.fit((height, width), side)
     small = np.zeros(fit.new_shape, dtype=bool)
-    for row, col in np.argwhere(mask):
-        new_row = int((row + 0.5) * fit.new_shape[0] / height)
-        small[new_row, int((col + 0.5) * fit.new_shape[1] / width)] = True
+    new_height, new_width = fit.new_shape
+    for row, col in np.argwhere(mask).tolist():
+        # In whole numbers: a centre may lie on the edge between two pixels.
+        new_row = (2 * row + 1) * new_height // (2 * height)
+        small[new_row, (2 * col + 1) * new_width // (2 * width)] = True
     assert np.array_equal(fit.mask(mask), small)
 
 

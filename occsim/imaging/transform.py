@@ -20,6 +20,9 @@ Shape = tuple[int, int]
 
 WHITE = (255, 255, 255)
 
+EDGE_EPS_PX = 1e-9
+"""Far above the rounding of a place in a drawing, far below what moves a line."""
+
 # Cosine and sine of the quarter turns, clockwise on the screen.
 _QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
@@ -233,7 +236,9 @@ class Transform:
             moved = self._warped(mask.astype(np.uint8), cv2.INTER_NEAREST, (0,))
             return np.asarray(moved > 0)
         rows, cols = np.nonzero(mask)
-        places = self.points(np.stack([cols, rows], axis=1) + 0.5).astype(np.int64)
+        centres = self.points(np.stack([cols, rows], axis=1) + 0.5)
+        # A centre on the edge of two pixels belongs to the second, however it rounds.
+        places = (centres + EDGE_EPS_PX).astype(np.int64)
         out = np.zeros(self.new_shape, dtype=bool)
         out[places[:, 1], places[:, 0]] = True
         return out
