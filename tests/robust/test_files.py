@@ -48,7 +48,7 @@ def test_undamaged_files_are_read(kind):
         files.opener(kind)(data)
 
 
-@pytest.mark.parametrize("kind", [kind for kind in GOOD if kind != "project"])
+@pytest.mark.parametrize("kind", GOOD)
 def test_damaged_files_are_read_or_refused_in_a_sentence(kind):
     assert files.faults(kind, GOOD[kind], N_DAMAGED, seed=1) == []
 
