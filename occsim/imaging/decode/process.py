@@ -30,7 +30,7 @@ def limit_process() -> None:
     """
     if not HAS_LIMITS:
         return
-    os.nice(5)
+    os.nice(2)
     _lower(resource.RLIMIT_CORE, 0)  # no gigabytes on disk where a decoder breaks
     if sys.platform == "linux":
         _lower(resource.RLIMIT_AS, MAX_MEMORY_BYTES)
