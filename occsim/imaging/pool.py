@@ -193,7 +193,8 @@ class Pool:
         except TimeoutError:
             raise DrawingError(
                 f"{name} takes longer than {MAX_SECONDS} s to decode, more than a "
-                "drawing may; export it anew, as a PNG or a simpler PDF"
+                "drawing may; export it anew, as a PNG or a simpler PDF, or try again "
+                "where the machine was busy"
             ) from None
         except EOFError:
             raise DrawingError(

@@ -7,8 +7,12 @@ but an `OccsimError`, and any file that takes long, is a fault.
 import argparse
 import io
 import json
+import struct
 import time
+import zipfile
+import zlib
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from PIL import Image
@@ -121,12 +125,47 @@ def damaged(data: bytes, rng: np.random.Generator) -> bytes:
     return bytes(out)
 
 
+def damaged_inside(kind: str, data: bytes, rng: np.random.Generator) -> bytes:
+    """A file damaged below its checksums, where the format has any."""
+    if kind == "project":
+        return _damaged_project(data, rng)
+    out = damaged(data, rng)
+    return _with_checksums(out) if kind == "png" else out
+
+
+def _damaged_project(data: bytes, rng: np.random.Generator) -> bytes:
+    """One member damaged and all packed again, in one of zip's ways."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    name = list(members)[rng.integers(0, len(members))]
+    kind = name.rpartition(".")[2]
+    members[name] = damaged_inside(kind, members[name], rng)
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", (0, 8, 12, 14)[rng.integers(0, 4)]) as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return out.getvalue()
+
+
+def _with_checksums(data: bytes) -> bytes:
+    """A PNG whose checksums are right as far as its chunks can be followed."""
+    out, at = bytearray(data), 8
+    while at + 12 <= len(out):
+        end = at + 8 + struct.unpack_from(">I", out, at)[0]
+        if end + 4 > len(out):
+            break
+        struct.pack_into(">I", out, end, zlib.crc32(out[at + 4 : end]))
+        at = end + 4
+    return bytes(out)
+
+
 def faults(kind: str, files: list[bytes], n: int, seed: int) -> list[str]:
     """What went wrong with n damaged files of a format."""
     rng = np.random.default_rng([seed, *kind.encode()])
     found = []
     for number in range(n):
-        data = damaged(files[number % len(files)], rng)
+        damage = damaged if number % 2 else partial(damaged_inside, kind)
+        data = damage(files[number % len(files)], rng)
         start = time.perf_counter()
         try:
             opener(kind)(data)

@@ -6,11 +6,12 @@ import os
 import sys
 import threading
 import time
+from pathlib import Path
 
 from occsim.imaging.decode.limits import MAX_MEMORY_BYTES, MAX_SECONDS
 
 SPENT_BYTES = 150_000_000
-"""A process that ever took more is replaced, bytes."""
+"""A process that has more in memory is replaced, bytes."""
 
 try:
     import resource
@@ -29,7 +30,7 @@ def limit_process() -> None:
     """
     if not HAS_LIMITS:
         return
-    os.nice(5)
+    os.nice(2)
     _lower(resource.RLIMIT_CORE, 0)  # no gigabytes on disk where a decoder breaks
     if sys.platform == "linux":
         _lower(resource.RLIMIT_AS, MAX_MEMORY_BYTES)
@@ -50,10 +51,16 @@ def is_spent() -> bool:
 
     What PDFium and glibc took for a large file, they keep.
     """
-    if not HAS_LIMITS:
-        return False
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit > SPENT_BYTES
+    return HAS_LIMITS and _memory_bytes() > SPENT_BYTES
+
+
+def _memory_bytes() -> int:
+    """Return what this process has in memory, or on macOS ever had."""
+    if sys.platform == "linux":
+        # The peak that Linux tells is that of the process which started this one.
+        pages = Path("/proc/self/statm").read_text(encoding="ascii").split()[1]
+        return int(pages) * resource.getpagesize()
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def _lower(kind: int, value: int) -> None:
@@ -63,7 +70,6 @@ def _lower(kind: int, value: int) -> None:
 
 
 def _watch_memory() -> None:
-    # In bytes on macOS.
-    while resource.getrusage(resource.RUSAGE_SELF).ru_maxrss < MAX_MEMORY_BYTES:
+    while _memory_bytes() < MAX_MEMORY_BYTES:
         time.sleep(0.1)
     os._exit(1)
