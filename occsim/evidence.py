@@ -11,7 +11,7 @@ from occsim.errors import ParameterError, expect
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
 from occsim.grid import Grid
 from occsim.rays.cull import without_hidden
-from occsim.rays.faces import SideFaces, wall_faces
+from occsim.rays.faces import WallFaces, wall_faces
 from occsim.rays.outline import trace_outline
 from occsim.rays.reach import View, seen_faces
 from occsim.rays.scan import (
@@ -222,10 +222,10 @@ def _ends(sizes: IntArray) -> IntArray:
     return indptr
 
 
-_faces: WeakKeyDictionary[World, tuple[SideFaces, ...]] = WeakKeyDictionary()
+_faces: WeakKeyDictionary[World, WallFaces] = WeakKeyDictionary()
 
 
-def _faces_of(world: World) -> tuple[SideFaces, ...]:
+def _faces_of(world: World) -> WallFaces:
     # Worlds never change: one that is asked pose by pose keeps its faces.
     faces = _faces.get(world)
     if faces is None:
@@ -234,7 +234,7 @@ def _faces_of(world: World) -> tuple[SideFaces, ...]:
 
 
 def _batches(
-    n_readings: int, sensor: Sensor, grid: Grid, faces: tuple[SideFaces, ...]
+    n_readings: int, sensor: Sensor, grid: Grid, faces: WallFaces
 ) -> list[slice]:
     """Return slices of readings that together stay within bounds of memory."""
     reach_px = 2.0 * sensor.range_px
@@ -242,7 +242,7 @@ def _batches(
     window = min(across, grid.n_rows) * min(across, grid.n_cols)
     # On average a reading has its share of the faces in reach, by area.
     share = min(reach_px / grid.height_px, 1.0) * min(reach_px / grid.width_px, 1.0)
-    n_faces = int(share * sum(side.position.size for side in faces)) + 1
+    n_faces = int(share * faces.position.size) + 1
     size = min(COUNTERS_AT_ONCE // window, FACES_AT_ONCE // n_faces, READINGS_AT_ONCE)
     size = max(size, 1)
     starts = range(0, n_readings, size)
@@ -251,7 +251,7 @@ def _batches(
 
 def _read(
     world: World,
-    faces: tuple[SideFaces, ...],
+    faces: WallFaces,
     view: View,
     sensor: Sensor,
     grid: Grid,
@@ -263,9 +263,8 @@ def _read(
         seen = without_hidden(seen, view)
     outline = trace_outline(seen, view)
     clear = sensor.clear_no_hit
-    n_empty = count_pixels(
-        empty_polygons(outline, seen, view, clear_no_hit=clear), windows, view
-    )
+    empty = empty_polygons(outline, seen, view, clear_no_hit=clear)
+    n_empty = count_pixels(empty, windows, view)
     if sensor.behind_hit is BehindHit.UNSEEN:
         n_object = count_surface(outline, seen, world.occupied, windows, view)
     else:

@@ -4,32 +4,37 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-import numpy.typing as npt
 
-from occsim._types import BoolArray, IntArray
+from occsim._types import BoolArray, FloatArray, IntArray
+
+_Runs = tuple[IntArray, IntArray, IntArray]
 
 N_SIDES = 4
 """Looking right, down, left, up: side k is seen when looking along bearing k pi/2."""
 
 
 @dataclass(frozen=True, eq=False)
-class SideFaces:
-    """All faces of a world that are seen when looking one way.
+class WallFaces:
+    """All faces of a world, those seen when looking one way after the other.
 
     Parameters
     ----------
-    position : ndarray of int64, shape (K,)
-        Where the face lies on the axis that is looked along, px; ascending.
-    start, stop : ndarray of int64, shape (K,)
+    bounds : tuple of int, length 5
+        Side k has the faces ``bounds[k]`` to ``bounds[k + 1] - 1``.
+    position : ndarray of float64, shape (K,)
+        Where the face lies on the axis that is looked along, px; ascending on each
+        side. A whole number, but compared with those of the robot.
+    start, stop : ndarray of float64, shape (K,)
         Its ends on the other axis, px, start < stop.
     """
 
-    position: IntArray
-    start: IntArray
-    stop: IntArray
+    bounds: tuple[int, ...]
+    position: FloatArray
+    start: FloatArray
+    stop: FloatArray
 
 
-def wall_faces(occupied: BoolArray) -> tuple[SideFaces, ...]:
+def wall_faces(occupied: BoolArray) -> WallFaces:
     """Return the surface of all walls, sides of pixels in a line merged.
 
     What lies outside the image is free, so walls at its edge have faces there too.
@@ -41,16 +46,23 @@ def wall_faces(occupied: BoolArray) -> tuple[SideFaces, ...]:
 
     Returns
     -------
-    tuple of SideFaces, length 4
-        Seen looking right, down, left and up.
+    WallFaces
+        Read-only.
     """
     transposed = cv2.transpose(occupied.view(np.uint8)).view(np.bool_)
     left, right = _near_and_far_faces(transposed)
     top, bottom = _near_and_far_faces(occupied)
-    return left, top, right, bottom
+    sides = (left, top, right, bottom)
+    bounds = np.cumsum([0, *(position.size for position, _, _ in sides)])
+    arrays = [
+        np.concatenate(parts, dtype=np.float64) for parts in zip(*sides, strict=True)
+    ]
+    for array in arrays:
+        array.setflags(write=False)
+    return WallFaces(tuple(bounds.tolist()), *arrays)
 
 
-def _near_and_far_faces(occupied: BoolArray) -> tuple[SideFaces, SideFaces]:
+def _near_and_far_faces(occupied: BoolArray) -> tuple[_Runs, _Runs]:
     """Return the upper and the lower faces of walls in an (H, W) image."""
     height, width = occupied.shape
     above = np.zeros((height + 1, width), dtype=np.bool_)
@@ -60,11 +72,11 @@ def _near_and_far_faces(occupied: BoolArray) -> tuple[SideFaces, SideFaces]:
     return _runs(below & ~above), _runs(above & ~below)
 
 
-def _runs(sides: npt.NDArray[np.bool_]) -> SideFaces:
-    """Return the runs of true values along each row of an (L, W) array."""
+def _runs(sides: BoolArray) -> _Runs:
+    """Return line, start and stop of the runs of true values along each row."""
     n_lines, width = sides.shape
     padded = np.zeros((n_lines, width + 2), dtype=np.bool_)
     padded[:, 1:-1] = sides
     # Along a row that begins and ends with False, changes alternate: start, stop.
     line, column = np.divmod(np.flatnonzero(padded[:, 1:] != padded[:, :-1]), width + 1)
-    return SideFaces(position=line[::2], start=column[::2], stop=column[1::2])
+    return line[::2], column[::2], column[1::2]

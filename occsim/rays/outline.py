@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occsim._types import FloatArray, IntArray
+from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import CARDINAL_HEADINGS_RAD, wrap_angle
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SIDE_COS, SIDE_SIN, SeenFaces, View
@@ -16,6 +16,8 @@ PAIRS_AT_ONCE = 1 << 20
 """Bounds the memory of comparing faces (about 50 bytes for each face and interval)."""
 
 NO_FACE = -1
+
+_TURNS = np.array(CARDINAL_HEADINGS_RAD)[:, None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,21 +83,20 @@ def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     """Return the intervals between all ends of faces, sorted within each reading."""
     n, k = view.size, faces.reading.size
     edge = np.full(n, view.half)
-    turns = [
-        np.clip(wrap_angle(turn - view.theta), -view.half, view.half)
-        for turn in CARDINAL_HEADINGS_RAD
-    ]
-    bearing = np.concatenate([-edge, edge, *turns, faces.begin, faces.end])
-    owner = np.concatenate([np.tile(np.arange(n), 6), faces.reading, faces.reading])
+    turns = wrap_angle(_TURNS - view.theta).reshape(-1)
+    turns = np.minimum(np.maximum(turns, -view.half), view.half)
+    bearing = np.concatenate([-edge, edge, turns, faces.begin, faces.end])
+    owner = np.concatenate([np.arange(6 * n) % n, faces.reading, faces.reading])
     # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
-    order = np.argsort(8.0 * owner + bearing)
+    order = (8.0 * owner + bearing).argsort()
     bearing, owner = bearing[order], owner[order]
     real = owner[1:] == owner[:-1]
     real &= bearing[1:] - bearing[:-1] > SLIVER_RAD
     # rank[p]: intervals before the end that was at place p before sorting.
     rank = np.empty(order.size, dtype=np.int64)
-    rank[order] = np.concatenate([[0], np.cumsum(real)])
-    left = np.flatnonzero(real)
+    rank[order[0]] = 0
+    rank[order[1:]] = real.cumsum()
+    left = real.nonzero()[0]
     begin, end, reading = bearing[left], bearing[left + 1], owner[left]
     middle = 0.5 * (begin + end) + view.theta[reading]
     first, stop = rank[6 * n : 6 * n + k], rank[6 * n + k :]
@@ -111,13 +112,11 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
     x, y = intervals.middle_x, intervals.middle_y
     ahead = np.concatenate([x, y, -x, -y])
     offset, least = faces.side * n_intervals, faces.ahead_min()
-    covered = np.cumsum(intervals.stop - intervals.first)
-    n_chunks = 1 + (int(covered[-1]) if covered.size else 0) // PAIRS_AT_ONCE
-    chunk_ends = np.searchsorted(
-        covered, np.arange(1, n_chunks + 1) * PAIRS_AT_ONCE, side="right"
-    )
+    covered = (intervals.stop - intervals.first).cumsum()
+    n_chunks = (int(covered[-1]) if covered.size else 0) // PAIRS_AT_ONCE
+    cuts = covered.searchsorted(np.arange(1, n_chunks + 1) * PAIRS_AT_ONCE, "right")
     start = 0
-    for stop in np.unique(np.append(chunk_ends, faces.reading.size)):
+    for stop in sorted({*cuts.tolist(), faces.reading.size}):
         pair, interval = ragged_ranges(
             intervals.first[start:stop], intervals.stop[start:stop]
         )
@@ -137,8 +136,7 @@ def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
     reading = intervals.reading
     differs = (reading[1:] != reading[:-1]) | (nearest[1:] != nearest[:-1])
     differs |= quadrant[1:] != quadrant[:-1]
-    first = np.concatenate([[0], np.flatnonzero(differs) + 1])
-    last = np.append(first[1:] - 1, reading.size - 1)
+    first, last = run_ends(differs)
     owner = reading[first]
     theta = view.theta[owner]
     return Outline(
@@ -149,11 +147,29 @@ def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
     )
 
 
+def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
+    """Return the first and the last place of each run of equal things.
+
+    Parameters
+    ----------
+    differs : ndarray of bool, shape (P - 1,)
+        Whether each place but the first differs from the one before it.
+
+    Returns
+    -------
+    first, last : ndarray of int64, shape (Q,)
+    """
+    last = np.append(differs.nonzero()[0], differs.size)
+    first = np.empty_like(last)
+    first[0], first[1:] = 0, last[:-1] + 1
+    return first, last
+
+
 def _unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
     """Return unit vectors (2, P) of bearings relative to a heading."""
     # A full turn ends where it began, to the last bit: its seam must cancel.
     absolute = np.where(bearing >= np.pi, -np.pi, bearing) + theta
-    return np.stack([np.cos(absolute), np.sin(absolute)])
+    return np.array([np.cos(absolute), np.sin(absolute)])
 
 
 def points_on_faces(
@@ -179,7 +195,7 @@ def points_on_faces(
     cut = faces.take(face)
     cos, sin = SIDE_COS[cut.side], SIDE_SIN[cut.side]
     sideways = cut.depth * lateral_slope(cut, direction)
-    return np.stack(
+    return np.array(
         [cut.depth * cos - sideways * sin, cut.depth * sin + sideways * cos]
     )
 

@@ -21,8 +21,7 @@ def ragged_ranges(first: IntArray, stop: IntArray) -> tuple[IntArray, IntArray]:
         The number.
     """
     sizes = np.maximum(stop - first, 0)
-    ends = np.cumsum(sizes)
-    owner = np.repeat(np.arange(first.size), sizes)
-    total = int(ends[-1]) if ends.size else 0
-    value = np.arange(total) + np.repeat(first - ends + sizes, sizes)
+    owner = np.arange(first.size).repeat(sizes)
+    value = np.arange(owner.size)
+    value += (first - sizes.cumsum() + sizes).repeat(sizes)
     return owner, value

@@ -7,7 +7,7 @@ import numpy as np
 
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import wrap_angle
-from occsim.rays.faces import N_SIDES, SideFaces
+from occsim.rays.faces import N_SIDES, WallFaces
 from occsim.rays.ragged import ragged_ranges
 from occsim.sensor import EDGE_EPS, Sensor
 
@@ -61,6 +61,10 @@ class View:
     def size(self) -> int:
         """Number N of readings."""
         return self.x.size
+
+    def axes(self) -> tuple[tuple[FloatArray, FloatArray], ...]:
+        """Return the coordinates along, and across, looking right and down."""
+        return (self.x, self.y), (self.y, self.x)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,15 +123,13 @@ def _joined(parts: list[SeenFaces]) -> SeenFaces:
     )
 
 
-def seen_faces(
-    faces: tuple[SideFaces, ...], occupied: BoolArray, view: View
-) -> SeenFaces:
+def seen_faces(faces: WallFaces, occupied: BoolArray, view: View) -> SeenFaces:
     """Return every face that may stop a ray of a batch of readings.
 
     Parameters
     ----------
-    faces : tuple of SideFaces
-        The world's, by `wall_faces`.
+    faces : WallFaces
+        The world's.
     occupied : ndarray of bool, shape (H, W)
         Its wall pixels.
     view : View
@@ -138,37 +140,44 @@ def seen_faces(
     SeenFaces
         Faces that hide one another are all there.
     """
-    parts = [_side_in_reach(side, faces[side], view) for side in range(N_SIDES)]
-    parts.append(_wall_at_robot(occupied, view))
-    return _in_field_of_view(_joined(parts), view.half)
+    seen = _in_field_of_view(_in_reach(faces, view), view.half)
+    around = first_pixel_is_wall(occupied, view)
+    if not around.any():
+        return seen
+    return _joined([seen, _in_field_of_view(_wall_at_robot(around, view), view.half)])
 
 
-def _side_in_reach(side: int, faces: SideFaces, view: View) -> SeenFaces:
-    """Return one side's faces that come within reach of each reading."""
-    along, across = (view.x, view.y) if side % 2 == 0 else (view.y, view.x)
-    ahead = side < 2
-    # A face in line with the robot cannot stop a ray: depths run from EDGE_EPS.
-    nearest, farthest = (EDGE_EPS, view.reach) if ahead else (-view.reach, -EDGE_EPS)
-    first = np.searchsorted(faces.position, along + nearest, side="left")
-    stop = np.searchsorted(faces.position, along + farthest, side="right")
-    reading, face = ragged_ranges(first, stop)
-    depth = np.abs(faces.position[face] - along[reading])
-    low = faces.start[face] - across[reading]
-    high = faces.stop[face] - across[reading]
-    if side in (1, 2):  # there, clockwise runs against the axis
-        low, high = -high, -low
+def _in_reach(faces: WallFaces, view: View) -> SeenFaces:
+    """Return the faces that come within reach of each reading."""
+    n, first, stop = view.size, list[IntArray](), list[IntArray]()
+    for k in range(N_SIDES):
+        along = view.x if k % 2 == 0 else view.y
+        # A face in line with the robot cannot stop a ray: depths run from EDGE_EPS.
+        ends = (EDGE_EPS, view.reach) if k < 2 else (-view.reach, -EDGE_EPS)
+        position = faces.position[faces.bounds[k] : faces.bounds[k + 1]]
+        first.append(position.searchsorted(along + ends[0], "left") + faces.bounds[k])
+        stop.append(position.searchsorted(along + ends[1], "right") + faces.bounds[k])
+    # Side by side, all readings at each: reading r looks along side k as k n + r.
+    look, face = ragged_ranges(np.concatenate(first), np.concatenate(stop))
+    along, across = (np.concatenate(pair * 2) for pair in view.axes())
+    depth = np.abs(faces.position[face] - along[look])
+    across = across[look]
+    low, high = faces.start[face] - across, faces.stop[face] - across
+    # Looking down and left, clockwise runs against the axis.
+    turned = slice(*look.searchsorted([n, 3 * n]))
+    low[turned], high[turned] = -high[turned], -low[turned]
     chord = np.sqrt(np.maximum(view.reach**2 - depth**2, 0.0))
     low, high = np.maximum(low, -chord), np.minimum(high, chord)
-    kept = np.flatnonzero(low < high)
-    reading, depth, low, high = reading[kept], depth[kept], low[kept], high[kept]
+    kept = (low < high).nonzero()[0]
+    look, depth, low, high = look[kept], depth[kept], low[kept], high[kept]
+    side, reading = np.divmod(look, n)
     left, right = np.arctan2(low, depth), np.arctan2(high, depth)
     begin, end = _relative_bearings(side, left, right, view.theta[reading])
-    sides = np.full(reading.size, side)
-    return SeenFaces(reading, sides, depth, low, high, begin, end)
+    return SeenFaces(reading, side, depth, low, high, begin, end)
 
 
 def _relative_bearings(
-    side: int | IntArray, left: FloatArray, right: FloatArray, theta: FloatArray
+    side: IntArray, left: FloatArray, right: FloatArray, theta: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return bearings relative to the heading, widened so that grazing rays stop."""
     begin = wrap_angle(left + (side * (0.5 * np.pi) - EDGE_EPS) - theta)
@@ -203,9 +212,9 @@ def first_pixel_is_wall(occupied: BoolArray, view: View) -> BoolArray:
     return np.asarray(inside & occupied[row.astype(np.intp), col.astype(np.intp)])
 
 
-def _wall_at_robot(occupied: BoolArray, view: View) -> SeenFaces:
+def _wall_at_robot(around: BoolArray, view: View) -> SeenFaces:
     """Return faces of depth 0 for the quadrants in which wall begins at once."""
-    reading, quadrant = np.nonzero(first_pixel_is_wall(occupied, view))
+    reading, quadrant = np.nonzero(around)
     zero = np.zeros(reading.size)
     begin, end = _relative_bearings(
         quadrant, zero, zero + 0.5 * np.pi, view.theta[reading]
@@ -216,10 +225,19 @@ def _wall_at_robot(occupied: BoolArray, view: View) -> SeenFaces:
 def _in_field_of_view(faces: SeenFaces, half: float) -> SeenFaces:
     """Return the faces cut to bearings within half of the heading."""
     # Behind the robot bearings jump from pi to -pi: such a face is seen at both ends.
-    across = np.flatnonzero(faces.end > np.pi)
-    index = np.concatenate([np.arange(faces.reading.size), across])
-    begin = np.concatenate([faces.begin, faces.begin[across] - 2.0 * np.pi])
-    end = np.concatenate([faces.end, faces.end[across] - 2.0 * np.pi])
-    begin, end = np.maximum(begin, -half), np.minimum(end, half)
-    kept = begin < end
-    return replace(faces.take(index[kept]), begin=begin[kept], end=end[kept])
+    across = (faces.end > np.pi).nonzero()[0]
+    if across.size:
+        behind = faces.take(across)
+        turned = (behind.begin - 2.0 * np.pi, behind.end - 2.0 * np.pi)
+        faces = _joined([faces, replace(behind, begin=turned[0], end=turned[1])])
+    begin, end = np.maximum(faces.begin, -half), np.minimum(faces.end, half)
+    kept = (begin < end).nonzero()[0]
+    return SeenFaces(
+        faces.reading[kept],
+        faces.side[kept],
+        faces.depth[kept],
+        faces.low[kept],
+        faces.high[kept],
+        begin[kept],
+        end[kept],
+    )

@@ -6,6 +6,7 @@ changes alone, by summing along each row of cells.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -13,11 +14,13 @@ import numpy.typing as npt
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import wrap_angle
 from occsim.grid import Grid
-from occsim.rays.outline import NO_FACE, Outline, points_on_faces
+from occsim.rays.outline import NO_FACE, Outline, points_on_faces, run_ends
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View
 
 CountArray = npt.NDArray[np.int32]
+
+_HALVES = np.array([[1.0], [0.5], [0.0], [-0.5], [-1.0]])
 
 OWN_RADIUS_PX = 1e-6
 """Outlines keep this far from the robot: a pixel centre there has no bearing and is
@@ -91,15 +94,9 @@ def windows_around(view: View, grid: Grid) -> Windows:
     -------
     Windows
     """
-    first_col, n_cols = _window(view.x, 0.0, view, grid.n_cols, grid.cell_px)
-    first_row, n_rows = _window(view.y, 0.5 * np.pi, view, grid.n_rows, grid.cell_px)
-    return Windows(grid, first_row, first_col, n_rows, n_cols + 1)
-
-
-def _window(
-    centre: FloatArray, axis: float, view: View, n_cells: int, cell_px: int
-) -> tuple[IntArray, int]:
-    """Return the first cell of each reading's window along one axis, and its length."""
+    # Along x, then along y.
+    centre, axis = np.array([view.x, view.y]), np.array([[0.0], [0.5 * np.pi]])
+    n_cells = np.array([[grid.n_cols], [grid.n_rows]])
     off = np.abs(wrap_angle(view.theta - axis))
     farthest = np.cos(np.maximum(off - view.half, 0.0))
     nearest = np.cos(np.minimum(off + view.half, np.pi))
@@ -107,11 +104,13 @@ def _window(
     high = centre + view.reach * np.maximum(farthest, 0.0) + 1.0
     # Far outside the image, cells would overflow whole numbers.
     first, last = (
-        np.clip(np.floor(end / cell_px), 0, n_cells - 1).astype(np.int64)
+        np.minimum(np.maximum(np.floor(end / grid.cell_px), 0), n_cells - 1)
         for end in (low, high)
     )
-    length = int((last - first).max()) + 1
-    return np.minimum(first, n_cells - length), length
+    length = (last - first).max(axis=1, keepdims=True) + 1
+    first_col, first_row = np.minimum(first, n_cells - length).astype(np.int64)
+    n_cols, n_rows = length.ravel().astype(int).tolist()
+    return Windows(grid, first_row, first_col, n_rows, n_cols + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,12 +170,12 @@ def empty_polygons(
     is_arc = is_open & clear_no_hit
     radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
     start, end = outline.start * radius, outline.end * radius
-    at_face = np.flatnonzero(~is_open)
+    at_face = (~is_open).nonzero()[0]
+    at_face = at_face[faces.depth[outline.face[at_face]] > 0.0]
     face = outline.face[at_face]
-    at_face = at_face[faces.depth[face] > 0.0]
-    face = outline.face[at_face]
-    start[:, at_face] = points_on_faces(faces, face, outline.start[:, at_face])
-    end[:, at_face] = points_on_faces(faces, face, outline.end[:, at_face])
+    ends = np.concatenate([outline.start[:, at_face], outline.end[:, at_face]], axis=1)
+    points = points_on_faces(faces, np.concatenate([face, face]), ends)
+    start[:, at_face], end[:, at_face] = points[:, : face.size], points[:, face.size :]
     return _closed(outline.reading, start, end, is_arc, view)
 
 
@@ -210,24 +209,23 @@ def _closed(
     view: View,
 ) -> Polygons:
     """Return pieces of boundary joined by straight edges, and round the robot."""
-    follows = np.flatnonzero(reading[1:] == reading[:-1])
-    first = np.concatenate([[0], np.flatnonzero(np.diff(reading)) + 1])
-    last = np.append(first[1:] - 1, reading.size - 1)
+    differs = reading[1:] != reading[:-1]
+    first, last = run_ends(differs)
+    follows = (~differs).nonzero()[0]
     # Back past the robot at a tiny distance, clockwise to anticlockwise side.
-    turns = view.half * np.array([1.0, 0.5, 0.0, -0.5, -1.0])
-    absolute = np.where(turns >= np.pi, -np.pi, turns)[:, None] + view.theta
-    turned = OWN_RADIUS_PX * np.stack([np.cos(absolute), np.sin(absolute)])
+    turns = view.half * _HALVES
+    absolute = np.where(turns >= np.pi, -np.pi, turns) + view.theta
+    turned = OWN_RADIUS_PX * np.array([np.cos(absolute), np.sin(absolute)])
     past = [end[:, last], *turned.transpose(1, 0, 2), start[:, first]]
-    flat = ~is_arc
+    flat, arc = (~is_arc).nonzero()[0], is_arc.nonzero()[0]
     straight = Edges(
         np.concatenate(
-            [reading[flat], reading[follows], np.tile(reading[first], len(past) - 1)]
+            [reading[flat], reading[follows], *[reading[first]] * (len(past) - 1)]
         ),
         np.concatenate([start[:, flat], end[:, follows], *past[:-1]], axis=1),
         np.concatenate([end[:, flat], start[:, follows + 1], *past[1:]], axis=1),
     )
-    arcs = Edges(reading[is_arc], start[:, is_arc], end[:, is_arc])
-    return Polygons(straight, arcs)
+    return Polygons(straight, Edges(reading[arc], start[:, arc], end[:, arc]))
 
 
 def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray:
@@ -255,11 +253,9 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray
     reading, row, x, sign = (np.concatenate(part) for part in zip(*parts, strict=True))
     grid = windows.grid
     # The first pixel whose centre lies at the crossing or right of it.
-    col = np.clip(np.ceil(x), 0, grid.width_px).astype(np.int64)
-    cell_row = np.arange(grid.height_px) // grid.cell_px * windows.n_cols
-    cell_col = np.arange(grid.width_px + 1) // grid.cell_px
-    within = np.arange(grid.width_px + 1, dtype=np.int32) % np.int32(grid.cell_px)
-    counter = base[reading] + cell_row[row] + cell_col[col]
+    col = _whole_within(np.ceil(x), grid.width_px)
+    cell, within = _cells_of_pixels(max(grid.height_px, grid.width_px), grid.cell_px)
+    counter = base[reading] + cell[row] * windows.n_cols + cell[col]
     changes = windows.sums(counter, sign)
     # Each change counts for its whole cell, less the pixels left of it.
     before = windows.sums(counter, sign * within[col])
@@ -268,6 +264,18 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray
     changes *= grid.cell_px
     changes -= before
     return changes
+
+
+@lru_cache(maxsize=8)
+def _cells_of_pixels(length_px: int, cell_px: int) -> tuple[IntArray, CountArray]:
+    # Which cell a row or column of pixels falls to, and how far into it: divisions
+    # take longer than looking them up.
+    cell, within = np.divmod(np.arange(length_px + 1), cell_px)
+    return cell, within.astype(np.int32)
+
+
+def _whole_within(values: FloatArray, most: int) -> IntArray:
+    return np.minimum(np.maximum(values, 0), most).astype(np.int64)
 
 
 def _crossings(
@@ -286,7 +294,7 @@ def _crossings(
     """
     shift = view.y[edges.reading] - 0.5
     rows = [
-        np.clip(np.ceil(end[1] + shift), 0, grid.height_px).astype(np.int64)
+        _whole_within(np.ceil(end[1] + shift), grid.height_px)
         for end in (edges.start, edges.end)
     ]
     edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
