@@ -19,7 +19,9 @@ def requirements(which: str) -> list[str]:
     needed = project["dependencies"] + extras["study"]
     if which == "oldest":
         needed = [re.sub(r">=([^,]+),.*", r"==\1", one) for one in needed]
-    testing = [one for one in extras["dev"] if re.match("pytest|hypothesis|moocore", one)]
+    testing = [
+        one for one in extras["dev"] if re.match("pytest|hypothesis|moocore", one)
+    ]
     return needed + testing
 
 

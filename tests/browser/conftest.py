@@ -5,7 +5,12 @@ import contextlib
 import pytest
 from playwright.sync_api import Error
 
-from tests.browser.running import no_trouble, running_app, running_chromium
+from tests.browser.running import (
+    complaints,
+    no_trouble,
+    running_app,
+    running_chromium,
+)
 
 
 @pytest.fixture(scope="session")
@@ -23,16 +28,6 @@ def browser():
         yield browser
 
 
-def _error_text(line) -> list[str]:
-    """What a console line complains of; Streamlit's probes for its base path aside.
-
-    On a deep link its client first asks for the health of a server below that path,
-    and the browser logs the 404 of that question.
-    """
-    probe = "404" in line.text and "_stcore" in line.location.get("url", "")
-    return [line.text] if line.type == "error" and not probe else []
-
-
 class Windows:
     """A browser all of whose windows are watched for errors."""
 
@@ -45,7 +40,7 @@ class Windows:
         context = self.browser.new_context(**options)
         context.set_default_timeout(30_000)
         context.on("weberror", lambda event: self.errors.append(str(event.error)))
-        context.on("console", lambda line: self.errors.extend(_error_text(line)))
+        context.on("console", lambda line: self.errors.extend(complaints(line)))
         self.contexts.append(context)
         return context
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
 START_SECONDS = 60
@@ -68,6 +68,17 @@ def no_trouble(log_path: Path) -> None:
     for trouble in ("Traceback", "Warning"):
         where = text.find(trouble)
         assert where < 0, text[max(0, where - 500) : where + 2000]
+
+
+def complaints(line: ConsoleMessage) -> list[str]:
+    """What a console line complains of; Streamlit's probes for its base path aside.
+
+    On a deep link its client first asks for the health of a server below that path,
+    and the browser logs the 404 of that question.
+    """
+    where = line.location.get("url", "")
+    is_probe = "404" in line.text and "_stcore" in where
+    return [f"{line.text} {where}"] if line.type == "error" and not is_probe else []
 
 
 @contextmanager

@@ -16,10 +16,9 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from playwright.sync_api import ConsoleMessage, Error, Locator, Page
+from playwright.sync_api import Error, Locator, Page
 
-from tests.browser.conftest import error_text
-from tests.browser.running import running_app, running_chromium
+from tests.browser.running import complaints, running_app, running_chromium
 
 FAILED = "an error in this program"
 PAUSE_MS = (0, 20, 120, 400, 1200)
@@ -65,17 +64,13 @@ def files(rng: random.Random) -> dict[str, object]:
 OVERTAKEN = ("/media/", "Download Button source error")
 
 
-def complaints(line: ConsoleMessage) -> list[str]:
-    """What a line on the console complains of.
+def is_serious(complaint: str) -> bool:
+    """Whether a line on the console is more than a file of an overtaken run.
 
-    A picture or a file of a run that the next click overtook may be gone when the
-    browser asks for it; the next run brings its own.
+    A picture of a run that the next click overtook may be gone when the browser asks
+    for it; the next run brings its own.
     """
-    return [
-        text
-        for text in error_text(line)
-        if "404" not in text or not any(words in text for words in OVERTAKEN)
-    ]
+    return "404" not in complaint or not any(word in complaint for word in OVERTAKEN)
 
 
 class Student:
@@ -212,7 +207,9 @@ def study(minutes: float, seed: int, log_path: Path) -> int:
         page = browser.new_page(viewport={"width": width, "height": height})
         page.set_default_timeout(20_000)
         page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("console", lambda line: errors.extend(complaints(line)))
+        page.on(
+            "console", lambda line: errors.extend(filter(is_serious, complaints(line)))
+        )
         page.on("dialog", lambda dialog: dialog.accept())
         page.goto(url)
         student = Student(page, url, rng)
