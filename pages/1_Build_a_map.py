@@ -28,7 +28,7 @@ as such a program does.
 
 
 def _controls() -> None:
-    with st.container(horizontal=True, vertical_alignment="bottom"):
+    with st.container(horizontal=True, vertical_alignment="bottom", key="map_controls"):
         controls.drawing_choice()
         for name in ("cell_px", "range_px", "fov_deg"):
             controls.slider(name, width=controls.NARROW_PX)
@@ -59,7 +59,8 @@ def _notices() -> None:
 
 
 def _words() -> None:
-    see, predict, why = st.columns(3, gap="large")
+    with st.container(key="map_words"):
+        see, predict, why = st.columns(3, gap="large")
     with see:
         st.markdown(
             "**See.** The map starts as the drawing says and each reading adds what "

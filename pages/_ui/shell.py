@@ -92,6 +92,15 @@ CSS = """
     [data-testid="stButtonGroup"] > div { flex-wrap: wrap; }
     /* On a telephone the picture that moves comes before the list of lessons. */
     .st-key-home [data-testid="stHorizontalBlock"] { flex-direction: column-reverse; }
+    /* One row to swipe, not three rows to scroll past. */
+    .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; padding-bottom: 4px;
+        scrollbar-width: none; }
+    .st-key-lessons [data-testid="stPageLink"] { flex: none; white-space: nowrap; }
+    .st-key-lessons > div { flex: none; }
+    /* The map and its prior come before the settings of the sensor. */
+    :has(> .st-key-map_controls) { order: 1; }
+    :has(> .st-key-map_words) { order: 2; }
+    :has(> .st-key-ending) { order: 3; }
 }
 .st-key-home [data-testid="stCaptionContainer"] { margin-top: -0.5rem; }
 </style>
@@ -168,7 +177,10 @@ def _ending() -> None:
             "project file lasts longer (Your building, 7 Keep)."
         )
     with st.container(
-        horizontal=True, horizontal_alignment="right", vertical_alignment="center"
+        horizontal=True,
+        horizontal_alignment="right",
+        vertical_alignment="center",
+        key="ending",
     ):
         address(state.query(), note=note, unsaved=not kept, key="address")
         st.button("Reset all", on_click=state.reset_all)
