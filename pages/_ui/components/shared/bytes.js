@@ -19,17 +19,11 @@ async function piped(bytes, transform) {
 const inflated = (bytes) => piped(bytes, new DecompressionStream("deflate"));
 const deflated = (bytes) => piped(bytes, new CompressionStream("deflate"));
 
-// One bit a flag, high bit first, as numpy.packbits and numpy.unpackbits have them.
+// One bit a flag, high bit first, as numpy.packbits writes them.
 function unpackBits(bytes, count) {
   const flags = new Uint8Array(count);
   for (let i = 0; i < count; i++) flags[i] = (bytes[i >> 3] >> (7 - (i & 7))) & 1;
   return flags;
-}
-
-function packBits(flags) {
-  const bytes = new Uint8Array(Math.ceil(flags.length / 8));
-  for (let i = 0; i < flags.length; i++) if (flags[i]) bytes[i >> 3] |= 128 >> (i & 7);
-  return bytes;
 }
 
 // For what goes back to Python: a component's state is JSON.
