@@ -58,8 +58,8 @@ test("header and payloads come apart, also from the middle of a buffer", () => {
 });
 
 test("flags are read from bits, high bit first", () => {
-  const flags = player.unpackBits(Uint8Array.of(0b10000001, 0b01100000), 11);
-  assert.deepEqual([...flags], [1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1]);
+  const bytes = Uint8Array.of(0b10000001, 0b01100000);
+  assert.deepEqual([...player.unpackBits(bytes, 11)], [1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 1]);
 });
 
 test("zlib streams are those of other programs, and base64 is what btoa writes", async () => {
