@@ -181,7 +181,9 @@ def test_walls_of_two_pixels_stay_whole_on_a_tenth_of_the_size():
     assert small.sum() == 300 + 200 - 1
 
 
-@pytest.mark.parametrize("tilt_deg", [-40.0, -3.0, 0.5, 12.0, 45.0])
+# Not 45: there pixel centres lie on the line's edges, 0 or 1 of 2 diagonals is taken by
+# chance, and OpenCV 4 and 5 differ.
+@pytest.mark.parametrize("tilt_deg", [-40.0, -3.0, 0.5, 12.0, 44.0])
 def test_a_line_of_one_pixel_is_not_broken_by_straightening(tilt_deg):
     mask = np.zeros((80, 120), dtype=bool)
     mask[40, 10:110] = True
