@@ -82,9 +82,8 @@ class MappingRun:
     Examples
     --------
     >>> from occsim import MappingRun, MapSettings, Prior, load_sample
-    >>> from occsim.building import building_from_sample
-    >>> settings = MapSettings(cell_px=5, sensor=load_sample("d").sensor)
-    >>> run = MappingRun(building_from_sample("d"), settings)
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=5, sensor=sample.sensor))
     >>> run.scores(Prior()).recall > run.scores(Prior.uninformative()).recall
     True
     """
