@@ -51,6 +51,17 @@ def test_the_search_nears_the_exact_front_and_never_passes_it(case, rule, elitis
     assert non_dominated(precision, recall)[: len(exact)].all()
 
 
+def test_the_search_finds_a_point_that_only_a_prior_of_one_half_attains():
+    """The map of `test_a_front_point_may_be_attained_only_at_a_tie` (test_pareto)."""
+    grid = Grid(height_px=1, width_px=3, cell_px=1)
+    evidence = log_of(grid, [{0: 0.1, 2: 0.1}, {2: 0.9}])
+    none, truth = np.zeros((1, 3), dtype=bool), np.array([[True, False, False]])
+    surface = prior_surface(evidence, none, truth, "subtract_prior", "all")
+    found = nsga2_front(surface, pop_size=12, n_gen=2, seed=0)
+    assert (found.precision, found.recall) == (1.0, 1.0)
+    assert found.p_space == 5 / 9
+
+
 def test_equal_seeds_give_equal_runs(case):
     objective = interpolated_objective(sweep_priors(*case, TENTHS, TENTHS))
     options = {"pop_size": 12, "n_gen": 6, "elitism": Elitism.CONTROLLED}

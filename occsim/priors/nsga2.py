@@ -14,6 +14,7 @@ References
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,11 +22,15 @@ import numpy as np
 from occsim._extras import needs_extra
 from occsim._types import FloatArray, Progress
 from occsim.errors import ParameterError, choice, real_number, whole_number
+from occsim.prior import PRIOR_SCALE
 from occsim.priors.front import ParetoFront, front_of, hypervolume
 from occsim.priors.objectives import AnyObjective, ObjectiveFunction, as_objective
 
 PARETO_FRACTION = 0.35
 """Default of the source's tool: share of the population on the best front."""
+
+ONE_HALF = 0.5 / PRIOR_SCALE
+"""Value of p_wall or p_space that is a prior of one half."""
 
 PENALTY = 1e6
 """Stands for 1/precision or 1/recall where the score is 0 or undefined: finite, for
@@ -48,7 +53,8 @@ class Generation:
     Parameters
     ----------
     number : int
-        1 for the first population: random pairs and the corners of the box.
+        1 for the first population: random pairs, the corners of the box, and pairs
+        with a prior of one half.
     population : ndarray of float64, shape (N, 2)
         Columns p_wall and p_space.
     objectives : ndarray of float64, shape (N, 2)
@@ -93,8 +99,8 @@ def nsga2_generations(
     pop_size : int, default 100
         Individuals in a population, 4 to 10,000.
     n_gen : int, default 100
-        Generations, 1 to 10,000, the first one among them: random pairs and the four
-        corners of the box.
+        Generations, 1 to 10,000, the first one among them: random pairs, the four
+        corners of the box, and five pairs with a prior of one half.
     seed : int
         0 to 2^32 - 1. Equal seeds give equal runs.
     elitism : Elitism, default Elitism.FULL
@@ -214,10 +220,13 @@ def _algorithm(
 def _first_population(
     pop_size: int, seed: int, bounds: tuple[float, float]
 ) -> FloatArray:
-    # Random, but for the corners of the box: a prior of exactly 0.9 * 1 ties with the
-    # sensor's readings, which no random pair and no small step towards it would find.
+    # Random, but for the priors that tie, which no random pair and no small step would
+    # find: 0.9 * 1 with the sensor's readings, one half with cells that were not read.
     pairs = np.random.default_rng(seed).uniform(*bounds, (pop_size, 2))
-    pairs[:4] = np.stack(np.meshgrid(bounds, bounds), axis=-1).reshape(4, 2)
+    inside = bounds[0] < ONE_HALF < bounds[1]
+    values = (*bounds, ONE_HALF) if inside else bounds
+    known = sorted(product(values, repeat=2), key=lambda pair: ONE_HALF in pair)
+    pairs[: len(known)] = known[:pop_size]
     return pairs
 
 
