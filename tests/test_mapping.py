@@ -182,6 +182,16 @@ def test_each_further_reading_pushes_away_from_a_subtracted_prior():
     np.testing.assert_allclose(once.p_free, [[0.9]])
 
 
+def test_a_subtracted_prior_goes_on_pushing_after_many_readings():
+    """One cell, 200 readings of 0.5, prior 0.9: l = (1 - 200) ln 9."""
+    grid = Grid(height_px=1, width_px=1, cell_px=1)
+    cells = np.zeros(200, dtype=np.int32)
+    evidence = EvidenceLog(grid, np.arange(201), cells, np.zeros(200))
+    prior_map = build_prior(np.zeros((1, 1), bool), grid, Prior(p_space=1.0))
+    result = fuse(evidence, prior_map, UpdateRule.SUBTRACT_PRIOR)
+    np.testing.assert_allclose(result.log_odds, [[-199 * np.log(9)]], rtol=1e-10)
+
+
 def test_fusing_changes_neither_log_nor_prior():
     evidence, prior_map = random_log(3), random_prior(3)
     before = [evidence.cell.copy(), evidence.log_odds.copy(), prior_map.p_free.copy()]

@@ -51,6 +51,16 @@ def test_the_search_nears_the_exact_front_and_never_passes_it(case, rule, elitis
     assert non_dominated(precision, recall)[: len(exact)].all()
 
 
+def test_the_search_starts_with_the_priors_that_tie(case):
+    """Corners of the box, and pairs with a prior of one half: 0.5 / 0.9."""
+    objective = exact_objective(*case)
+    first = next(iter(nsga2_generations(objective, pop_size=20, n_gen=1, seed=3)))
+    pairs = {tuple(pair) for pair in first.population.tolist()}
+    half = 0.5 / 0.9
+    assert {(0.1, 0.1), (0.1, 1.0), (1.0, 0.1), (1.0, 1.0)} <= pairs
+    assert {(half, half), (half, 1.0), (0.1, half)} <= pairs
+
+
 def test_the_search_finds_a_point_that_only_a_prior_of_one_half_attains():
     """The map of `test_a_front_point_may_be_attained_only_at_a_tie` (test_pareto)."""
     grid = Grid(height_px=1, width_px=3, cell_px=1)

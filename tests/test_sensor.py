@@ -55,6 +55,26 @@ def test_the_field_of_view_is_at_most_a_full_turn(value):
         Sensor(fov_rad=value)
 
 
+@pytest.mark.parametrize(("beyond_px", "seen"), [(5e-10, True), (2e-8, False)])
+def test_the_reach_ends_within_its_tolerance(beyond_px, seen):
+    """A pixel centre 10 px ahead of the robot, at the reach but for a little."""
+    world = World(occupied=np.zeros((3, 20), dtype=bool))
+    pose = Trajectory(poses=np.array([[0.5, 1.5, 0.0]]))
+    sensor = Sensor(range_px=10.0 - beyond_px, fov_rad=0.1)
+    log = collect_evidence(world, pose, sensor, world.grid(1))
+    assert (1 * 20 + 10 in log.cell) == seen
+
+
+@pytest.mark.parametrize(("beyond_rad", "seen"), [(5e-10, True), (2e-8, False)])
+def test_the_sides_of_the_cone_end_within_their_tolerance(beyond_rad, seen):
+    """A pixel centre at 45 degrees, on the side of the cone but for a little."""
+    world = World(occupied=np.zeros((9, 9), dtype=bool))
+    pose = Trajectory(poses=np.array([[0.5, 0.5, 0.0]]))
+    sensor = Sensor(range_px=20.0, fov_rad=np.pi / 2 - 2 * beyond_rad)
+    log = collect_evidence(world, pose, sensor, world.grid(1))
+    assert (5 * 9 + 5 in log.cell) == seen
+
+
 def test_a_full_turn_given_in_degrees_is_accepted():
     assert Sensor(fov_rad=np.radians(360.0)).fov_rad == pytest.approx(2 * np.pi)
 

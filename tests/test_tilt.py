@@ -18,14 +18,14 @@ def straightened(drawing: Drawing, tilt_rad: float) -> Drawing:
     return Transform.straighten(drawing.shape, tilt_rad).drawing(drawing)
 
 
-@pytest.mark.parametrize("name", ["a", "c", "e"])
+@pytest.mark.parametrize("name", ["a", "b", "c", "d", "e"])
 @pytest.mark.parametrize("tilt_deg", [-8.0, -4.3, -1.1, 0.0, 0.4, 2.9, 6.6, 8.0])
-def test_tilt_is_found_within_a_third_of_a_degree(name, tilt_deg):
+def test_tilt_is_found_within_a_sixth_of_a_degree(name, tilt_deg):
     drawing = load_drawing(FOLDER / f"{name}_drawing.png")
     turned = straightened(drawing, -np.radians(tilt_deg))
     found = estimate_tilt(turned)
     assert found is not None
-    assert abs(np.degrees(found) - tilt_deg) <= 0.3
+    assert abs(np.degrees(found) - tilt_deg) <= 1 / 6
 
 
 def test_tilt_of_a_photograph_with_shadow_and_noise_is_found():
