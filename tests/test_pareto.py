@@ -240,6 +240,20 @@ def test_rectangles_hold_every_pair_that_scores_the_same(case, rule, region, pai
     np.testing.assert_array_equal(inside, same)
 
 
+def test_a_rectangle_ends_at_the_tie_that_it_holds():
+    """Cell 1 is read three times with sum 0, prior subtracted: l = -2 l_0.
+
+    It is wall where l_0 > 0, and so not at p_space = 5/9, a prior of one half.
+    """
+    grid = Grid(height_px=1, width_px=2, cell_px=1)
+    readings = [{0: 0.1, 1: 0.1}, {1: 0.9}, {1: 0.5}]
+    none, truth = np.zeros((1, 2), dtype=bool), np.array([[True, False]])
+    surface = prior_surface(log_of(grid, readings), none, truth, "subtract_prior")
+    [rectangle] = rectangles_at(surface, 1.0, 0.5)
+    assert rectangle[3] == pytest.approx(5 / 9, abs=1e-15)
+    assert surface.counts(1.0, rectangle[3]) == surface.counts(1.0, 0.5)
+
+
 @pytest.fixture(scope="module", params=["c", "e"])
 def sample_case(request):
     """A section at 5 px; its dark pixels serve as the wall mask."""

@@ -237,8 +237,8 @@ def _states(
     first[0], last[0] = bottom, max(last[0], bottom)
     first[-1] = min(first[-1], top)
     tie = np.searchsorted(starts, 0.0, side="right") - 1
-    if bottom <= 0.0 <= top and first[tie] > last[tie]:
-        first[tie] = last[tie] = 0.0
+    if bottom <= 0.0 <= top:
+        first[tie], last[tie] = min(first[tie], 0.0), max(last[tie], 0.0)
     real = first <= last
     p_low, p_high = np.clip(p_free_from_log_odds([first, last]) / scale, low, high)
     p_low[0], p_high[-1] = low, high

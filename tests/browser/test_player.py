@@ -80,7 +80,7 @@ def test_a_slider_tells_the_probability_that_it_sets(page, app_url):
     slide(player, "p_wall", 0.35)
     slide(player, "p_space", 0.8)
     words = player.locator(".slider small").all_inner_texts()
-    assert words == ["p_free = 0.9 × 0.35 = 0.315", "p_free = 0.9 × 0.80 = 0.720"]
+    assert words == ["pfree = 0.9 × 0.35 = 0.315", "pfree = 0.9 × 0.80 = 0.720"]
 
 
 def test_keys_step_jump_and_play(page, app_url):

@@ -13,8 +13,8 @@ test("numbers have a true minus, and no minus where they round to zero", () => {
 
 test("a probability near 0 or 1 is not shown as certain", () => {
   assert.equal(player.probability(0.18), "0.180");
-  assert.equal(player.probability(0.00012), "1.2e\u22124");
-  assert.equal(player.probability(1 - 0.00012), "1 \u2212 1.2e\u22124");
+  assert.equal(player.probability(0.00012), "0.00012");
+  assert.equal(player.probability(1 - 0.00012), "0.99988");
   assert.equal(player.probability(0), "0.000");
 });
 

@@ -28,7 +28,7 @@ function radio(p, name, { value, label, about }) {
   const input = element("input", { type: "radio", name, value });
   input.addEventListener("change", () => choose(p, name, value));
   const words = element("span", {}, label);
-  if (about) words.append(element("small", {}, about));
+  if (about) words.append(element("small", {}, ...maths(about)));
   return element("label", {}, input, words);
 }
 
@@ -60,7 +60,7 @@ function showSlider(p, name) {
   Object.assign(box.querySelector("input"), { value: p.state[name], disabled: uninformative });
   box.classList.toggle("off", uninformative);
   box.querySelector(".value").textContent = chosen;
-  box.querySelector("small").textContent = `p_free = ${uninformative ? pFree : factors}`;
+  box.querySelector("small").replaceChildren(...maths(`p_free = ${uninformative ? pFree : factors}`));
 }
 
 const legendKey = (mark, label) =>
@@ -71,7 +71,7 @@ const errorKeys = ({ header }) =>
 
 function beliefKeys({ header, state: { overlay } }) {
   const ramp = legendKey("ramp", "1");
-  ramp.prepend("p_free 0");
+  ramp.prepend(...maths("p_free 0"));
   if (overlay === "none") return [ramp];
   const { label } = header.texts.overlays.find(({ value }) => value === overlay);
   return [legendKey(overlay, label), ramp];

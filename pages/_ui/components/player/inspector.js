@@ -160,7 +160,7 @@ function showPinned(p) {
 }
 
 const rows = (facts) =>
-  facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
+  facts.flatMap(([name, value]) => [element("dt", {}, ...maths(name)), element("dd", {}, value)]);
 
 // ---- the card at the pointer -----------------------------------------------------------
 

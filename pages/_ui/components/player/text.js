@@ -13,10 +13,9 @@ const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits)
 // A score; what is undefined is a dash.
 const percent = (value) => (Number.isNaN(value) ? DASH : `${(100 * value).toFixed(1)} %`);
 
-// Three decimals, more where a probability would else read as 0 or 1.
+// Three decimals; two digits more than zeros or nines where it would else read as certain.
 function probability(p) {
   const edge = Math.min(p, 1 - p);
   if (edge >= 0.0005 || edge === 0) return p.toFixed(3);
-  const small = edge.toExponential(1).replace("-", MINUS);
-  return p < 0.5 ? small : `1 ${MINUS} ${small}`;
+  return p.toFixed(Math.min(15, 1 - Math.floor(Math.log10(edge))));
 }

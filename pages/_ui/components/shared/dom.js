@@ -7,6 +7,17 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+// The names of the model's quantities as mathematics: letter and subscript.
+function maths(text) {
+  const parts = text.split(/\b([pl])_(wall|space|free|occupied|0)\b/);
+  const nodes = [];
+  for (let i = 0; i < parts.length; i += 3) {
+    nodes.push(parts[i]);
+    if (i + 2 < parts.length) nodes.push(element("i", {}, parts[i + 1]), element("sub", {}, parts[i + 2]));
+  }
+  return nodes;
+}
+
 const partOf = (root, name) => root.querySelector(`[data-part=${name}]`);
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
