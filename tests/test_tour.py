@@ -183,24 +183,58 @@ def test_specks_and_lines_beside_a_building_make_no_building():
     assert not inside[164:].any()
 
 
-def test_cut_out_of_a_plan_is_inside_up_to_its_edge():
-    """Three rooms between walls that run into the drawing's left edge."""
-    occupied = np.zeros((90, 60), bool)
+def test_yard_in_view_of_two_windows_is_outside():
+    """An L of two rooms; rows and columns through the windows cross in the yard."""
+    rooms = [(100, 20, 200, 120), (20, 116, 200, 220)]
+    windows = [(100, 40, 104, 80), (40, 116, 80, 120)]
+    inside = inside_building(boxes(220, 240, rooms, windows))
+    assert inside[110:190, 30:110].all()
+    assert inside[30:190, 126:210].all()
+    assert not inside[:98, :114].any()
+
+
+def test_rooms_with_windows_on_either_side_are_inside_on_a_wide_sheet():
+    """Rows through the windows of two small houses lead 900 px through the open."""
+    rooms = [(20, 20, 80, 60), (20, 900, 80, 940)]
+    windows = [(40, x, 52, x + 4) for x in (20, 56, 900, 936)]
+    inside = inside_building(boxes(100, 960, rooms, windows))
+    assert inside[27:73, 27:53].all()
+    assert inside[27:73, 907:933].all()
+    assert not inside[:, 64:896].any()
+
+
+@pytest.mark.parametrize("turns", range(4))
+def test_cut_out_of_a_plan_is_inside_up_to_its_edge(turns):
+    """Three rooms between walls that run into one edge, and a field beside them."""
+    occupied = np.zeros((120, 60), bool)
     occupied[[0, 1, 29, 30, 59, 60, 88, 89]] = True
-    occupied[:, 58:] = True
-    assert (inside_building(World(occupied=occupied)) == ~occupied).all()
+    occupied[:90, 58:] = True
+    turned = np.rot90(occupied, turns)
+    inside = np.rot90(inside_building(World(occupied=turned)), -turns)
+    assert (inside == ~occupied & (np.arange(120) < 89)[:, None]).all()
+
+
+def test_everywhere_is_inside_where_walls_enclose_nothing():
     assert inside_building(World(occupied=np.zeros((50, 50), bool))).all()
+    scraps = boxes(200, 200, [(10, 10, 22, 22)], wall_px=2)
+    occupied = scraps.occupied.copy()
+    occupied[150, 20:180] = True
+    assert (inside_building(World(occupied=occupied)) == ~occupied).all()
 
 
 # --- Ways -----------------------------------------------------------------------------
 
 
 def test_lattice_links_exactly_the_free_straight_steps():
-    """Oracle: every pixel of each step; a diagonal one also needs those beside it."""
+    """Oracle: every pixel of each step; a diagonal one also needs those beside it.
+
+    Its cost is its length times the mean of the costs at its ends.
+    """
     rng = np.random.default_rng(5)
     for step in (1, 2, 3, 5):
         free = rng.random((23, 31)) < 0.9
-        lattice = build_lattice(free, step, np.ones(free.shape))
+        cost = rng.uniform(1.0, 3.0, free.shape)
+        lattice = build_lattice(free, step, cost)
         places = [
             (r, c)
             for r in range(step // 2, 23, step)
@@ -212,13 +246,15 @@ def test_lattice_links_exactly_the_free_straight_steps():
         expected = {}
         for (row, col), k in number.items():
             for dr, dc in itertools.product((-1, 0, 1), repeat=2):
-                other = number.get((row + dr * step, col + dc * step))
+                there = row + dr * step, col + dc * step
+                other = number.get(there)
                 line = {(row + dr * t, col + dc * t) for t in range(step + 1)}
                 if dr and dc:
                     line |= {(row + dr * t, col + dc * (t + 1)) for t in range(step)}
                     line |= {(row + dr * (t + 1), col + dc * t) for t in range(step)}
                 if other not in (None, k) and all(free[p] for p in line):
-                    expected[k, other] = step * np.hypot(dr, dc)
+                    mean = 0.5 * (cost[row, col] + cost[there])
+                    expected[k, other] = mean * step * np.hypot(dr, dc)
         links = lattice.graph.tocoo()
         found = dict(
             zip(zip(links.row, links.col, strict=True), links.data, strict=True)
@@ -307,8 +343,9 @@ def test_corners_keep_to_roomy_floor_where_there_is_some():
     assert ((kept[:, 0] < 29) | (kept[:, 0] > 38)).sum() >= len(kept) - 2
     for start, end in itertools.pairwise(kept):
         assert straight_is_free(free, start, end)
-        if end[0] < 30:
-            assert straight_is_free(roomy, start, end)
+        line = np.linspace(start, end, 400)
+        cols, rows = np.floor(line[line[:, 0] < 30]).astype(int).T
+        assert roomy[rows, cols].all()
 
 
 # --- Views ----------------------------------------------------------------------------
@@ -354,7 +391,7 @@ def test_walls_and_floor_of_the_building_are_worth_a_look():
 @given(data=st.data())
 @settings(max_examples=60, deadline=None)
 def test_chosen_view_shows_the_most_that_is_new(data):
-    """Oracle: sets; each choice gains the maximum of what is still unseen."""
+    """Oracle: sets; each choice gains nearly the maximum of what is still unseen."""
     cells = st.sets(st.integers(0, 19), max_size=8)
     shown = data.draw(st.lists(cells, min_size=1, max_size=12))
     worth = np.array(data.draw(st.lists(st.integers(0, 3), min_size=20, max_size=20)))
@@ -366,7 +403,7 @@ def test_chosen_view_shows_the_most_that_is_new(data):
     visible = sum(worth[c] for c in set().union(*shown))
     for k in chosen:
         gains = [sum(worth[c] for c in view - seen) for view in shown]
-        assert gains[k] == max(gains)
+        assert k == next(v for v, g in enumerate(gains) if g >= 0.9 * max(gains))
         seen |= shown[k]
     assert 1 <= len(chosen) <= most
     if len(chosen) < most:
@@ -411,7 +448,9 @@ def test_tour_goes_through_the_doors_stays_indoors_and_sees_all():
 
 
 def test_tour_keeps_clear_of_walls_where_there_is_room():
-    """A fifth of the range is 4 px; a slot of 5 px between rooms has 2 px of it."""
+    """A fifth of the range is 4 px, all the way; a slot of 5 px leaves 2 px."""
+    tour = default_tour(house(), Sensor(range_px=20))
+    assert (clearance_map(house())[touched(tour)] >= 4).all()
     slot = (60, 100, 65, 104)
     world = boxes(140, 200, [(20, 20, 120, 104), (20, 100, 120, 180)], [slot])
     tour = default_tour(world, Sensor(range_px=20))
@@ -459,9 +498,9 @@ def test_windows_are_no_way_out_where_a_door_leads_on():
 
 def test_two_buildings_are_walked_one_after_the_other():
     """Once outside, from the one's front door to the other's; and a shed left out."""
-    rooms = [(20, 20, 120, 110), (20, 150, 120, 240), (150, 20, 160, 40)]
-    doors = [(116, 60, 120, 80), (116, 190, 120, 210), (150, 28, 154, 34)]
-    world = boxes(180, 260, rooms, doors)
+    rooms = [(20, 20, 120, 110), (20, 150, 120, 240), (150, 20, 174, 44)]
+    doors = [(116, 60, 120, 80), (116, 190, 120, 210), (170, 28, 174, 36)]
+    world = boxes(190, 260, rooms, doors)
     sensor = Sensor(range_px=20)
     tour = default_tour(world, sensor)
     inside = inside_building(world)
@@ -501,6 +540,14 @@ def test_few_readings_are_spread_over_the_building():
     sector = 0.5 * np.pi / 6 * 20**2
     shown = seen_share(world, few, sensor, ~world.occupied)
     assert shown * np.count_nonzero(~world.occupied) > 0.6 * sector * len(few)
+
+
+def test_readings_that_show_as_much_lie_far_apart():
+    """40 in a hall that takes 800: some in each quarter of it."""
+    world = boxes(260, 260, [(10, 10, 250, 250)])
+    tour = default_tour(world, Sensor(range_px=20), max_readings=40)
+    quarter = 2 * (tour.poses[:, 0] > 130) + (tour.poses[:, 1] > 130)
+    assert (np.bincount(quarter, minlength=4) >= 2).all()
 
 
 @pytest.mark.parametrize("most", [1, 2, 3, 5, 9])

@@ -3,19 +3,19 @@
 import cv2
 import numpy as np
 
-from occsim._types import BoolArray, FloatArray
+from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.errors import ParameterError
 from occsim.world import World
 
 # Inside and outside need no more detail than this, cells along the longer side.
 _CELLS = 400
-# Of a run of free pixels, the share that must have walls on each of the four sides:
-# a room has some, however wide its windows; a yard or an alley has none.
+# Of a run's cells that have walls on either of two sides, those that must have walls
+# on the one and on the other: a room has some, however wide its windows.
 _WALLED_SHARE = 0.1
-_PASSES = 3
-# Of the sheet, and of the largest building: smaller enclosures are no buildings.
+# Of all cells of a run: fewer may be specks in the field.
+_LEAST_OF_RUN = 0.04
+# Of the drawing: less than this is a pocket between scraps of wall, no building.
 _LEAST_OF_SHEET = 0.003
-_LEAST_OF_LARGEST = 0.03
 
 
 def clearance_map(world: World) -> FloatArray:
@@ -35,7 +35,9 @@ def clearance_map(world: World) -> FloatArray:
     # The drawing's edge is as good as a wall: nothing is known beyond it.
     floor = np.pad((~world.occupied).astype(np.uint8), 1)
     centres = cv2.distanceTransform(floor, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return np.maximum(centres[1:-1, 1:-1].astype(np.float64) - 0.5, 0.0)
+    # The last bit differs from call to call (opencv/opencv#24082); squares are whole.
+    squares = np.rint(centres[1:-1, 1:-1].astype(np.float64) ** 2)
+    return np.asarray(np.maximum(np.sqrt(squares) - 0.5, 0.0))
 
 
 def free_space(world: World, clearance_px: float = 0.0) -> BoolArray:
@@ -87,8 +89,8 @@ def inside_building(world: World) -> BoolArray:
     """
     cell_px = -(-max(world.shape) // _CELLS)
     walls = world.grid(cell_px).share(world.occupied) > 0.0
-    inside = _buildings(_majority(_enclosed(walls), walls))
-    if not inside.any():
+    inside = _without_holes(_enclosed(walls), walls)
+    if np.count_nonzero(inside) <= _LEAST_OF_SHEET * inside.size:
         return ~world.occupied
     height, width = world.shape
     inside = inside.repeat(cell_px, axis=0).repeat(cell_px, axis=1)
@@ -102,14 +104,15 @@ def _enclosed(walls: BoolArray) -> BoolArray:
         _close_cut(frame, side)
     for frame, side in ((framed[:, 0], walls[:, 0]), (framed[:, -1], walls[:, -1])):
         _close_cut(frame, side)
-    left, right = _walls_before(framed)
-    above, below = (blocked.T for blocked in _walls_before(framed.T))
-    stop = framed.copy()
-    for _ in range(_PASSES):
-        # A run that leads out through a window is cut where it is found to be outside.
-        across = np.minimum(_run_share(stop, above), _run_share(stop, below))
-        along = np.minimum(_run_share(stop.T, left.T), _run_share(stop.T, right.T)).T
-        stop = framed | (np.minimum(across, along) < _WALLED_SHARE)
+    left_right = _walls_before(framed)
+    above_below = _walls_before(framed.T)
+    stop = framed
+    for _ in range(2):
+        # Runs that lead out through windows may cross in a yard: the second time, they
+        # are cut where they are found to be outside.
+        across = _is_walled(stop, *(blocked.T for blocked in above_below))
+        along = _is_walled(stop.T, *(blocked.T for blocked in left_right)).T
+        stop = framed | ~(across & along)
     return np.asarray(~stop[1:-1, 1:-1])
 
 
@@ -127,36 +130,25 @@ def _walls_before(walls: BoolArray) -> tuple[BoolArray, BoolArray]:
     return left, right
 
 
-def _run_share(stop: BoolArray, marked: BoolArray) -> FloatArray:
-    """Return, for each pixel, the share of its run along the row that is marked."""
+def _is_walled(stop: BoolArray, one: BoolArray, other: BoolArray) -> BoolArray:
+    """Return the cells whose run along the row has walls on the one side and the other.
+
+    A run goes from stop to stop; `one` and `other` mark the cells with a wall there.
+    """
     n_rows, n_cols = stop.shape
     run = np.cumsum(stop, axis=1) + np.arange(n_rows)[:, None] * (n_cols + 1)
-    run, free = run.ravel(), ~stop.ravel()
-    length = np.bincount(run[free], minlength=n_rows * (n_cols + 1))
-    count = np.bincount(run[free & marked.ravel()], minlength=length.size)
-    share = np.where(free, count[run] / np.maximum(length[run], 1), 0.0)
-    return share.reshape(stop.shape)
+
+    def count(marked: BoolArray) -> IntArray:
+        return np.bincount(run[marked & ~stop], minlength=n_rows * (n_cols + 1))
+
+    fewest = np.minimum(count(one), count(other))
+    walled = fewest > _LEAST_OF_RUN * count(~stop)
+    walled &= fewest > _WALLED_SHARE * count(one | other)
+    return np.asarray(walled[run] & ~stop)
 
 
-def _majority(inside: BoolArray, walls: BoolArray) -> BoolArray:
-    """Return what most of the free cells around say, so that single rows do not."""
-    if not inside.any():
-        return inside
-    free = (~walls).astype(np.uint8)
-    depth = cv2.distanceTransform(free, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    # The width of a door or so: a tenth of the cells lie deeper than this in a room.
-    size = int(np.quantile(depth[inside], 0.9)) | 1
-    votes, voters = (
-        cv2.boxFilter(layer.astype(np.float32), -1, (size, size), normalize=False)
-        for layer in (inside, free)
-    )
-    return np.asarray((2.0 * votes > voters) & ~walls)
-
-
-def _buildings(inside: BoolArray) -> BoolArray:
-    """Return the parts of the inside that are large enough to be a building's."""
-    _, part = cv2.connectedComponents(inside.astype(np.uint8), connectivity=4)
-    size = np.bincount(part.ravel())
-    size[0] = 0
-    least = max(_LEAST_OF_SHEET * inside.size, _LEAST_OF_LARGEST * size.max())
-    return np.asarray((size >= least)[part])
+def _without_holes(inside: BoolArray, walls: BoolArray) -> BoolArray:
+    """Return the inside with what lies between it and walls, cut off from the field."""
+    rest = np.pad(~(inside | walls), 1, constant_values=True)
+    _, part = cv2.connectedComponents(rest.astype(np.uint8), connectivity=4)
+    return np.asarray((part[1:-1, 1:-1] != part[0, 0]) & ~walls)

@@ -16,6 +16,9 @@ from occsim.world import World
 _WALL_WORTH = 2.0
 # Of the worth that any view shows: the rest takes many readings for little.
 _ENOUGH = 0.95
+# A view within so much of the best is as good: taking the first of them in an order of
+# no place spreads few readings over the building.
+_AS_GOOD = 0.9
 # Of a cell's pixels: half of them would leave gaps between views side by side.
 _SEEN_SHARE = 0.75
 
@@ -108,8 +111,9 @@ def best_views(views: Views, worth: FloatArray, most: int) -> IntArray:
     Returns
     -------
     ndarray of int64
-        Each shows the most of what those before it have not, by worth. Fewer than
-        `most` where nearly all that any view shows is seen; at least one.
+        Each is the first that shows nearly the most of what those before it have not,
+        by worth. Fewer than `most` where nearly all that any view shows is seen; at
+        least one.
     """
     n_views = views.first.size - 1
     owner = np.repeat(np.arange(n_views), np.diff(views.first))
@@ -118,7 +122,7 @@ def best_views(views: Views, worth: FloatArray, most: int) -> IntArray:
     first = np.searchsorted(views.cell[by_cell], np.arange(worth.size + 1))
     gain = np.bincount(owner, weights=worth[views.cell], minlength=n_views)
     left = np.where(first[1:] > first[:-1], worth, 0.0)
-    chosen = [int(np.argmax(gain))]
+    chosen = [int(np.argmax(gain >= _AS_GOOD * gain.max()))]
     rest = _ENOUGH * left.sum()
     while True:
         cell = views.cell[views.first[chosen[-1]] : views.first[chosen[-1] + 1]]
@@ -129,4 +133,4 @@ def best_views(views: Views, worth: FloatArray, most: int) -> IntArray:
         left[cell] = 0.0
         if len(chosen) == most or rest <= 0.0:
             return np.array(chosen, dtype=np.int64)
-        chosen.append(int(np.argmax(gain)))
+        chosen.append(int(np.argmax(gain >= _AS_GOOD * gain.max())))

@@ -177,7 +177,7 @@ def corners(roomy: BoolArray, free: BoolArray, points_px: FloatArray) -> IntArra
     last = len(points_px) - 1
     while (here := kept[-1]) < last:
         seen = _farthest(roomy, points_px, here, last)
-        if seen == here + 1 and (tight[here] or tight[seen]):
+        if seen == here + 1:
             # As far as the narrow place goes, and no corner of a room is cut.
             roomy_again = np.flatnonzero(~tight[seen:])
             stop = seen + int(roomy_again[0]) if roomy_again.size else last
