@@ -211,15 +211,12 @@ def test_large_drawings_are_worked_on_at_a_smaller_size(degrees):
     assert compare_masks(found, truth[..., 0] > 127, tolerance_px=4).f1 >= 0.97
 
 
-def test_samples_reach_the_figures_asked_for():
-    """F1 with a tolerance of 2 px: at least 0.90 on average and 0.80 on each."""
-    f1 = []
-    for name in "abcde":
-        sample = load_sample(name)
-        found = detect_walls(sample.drawing).mask
-        f1.append(compare_masks(found, sample.world.occupied).f1)
-    assert np.mean(f1) >= 0.90
-    assert min(f1) >= 0.80
+@pytest.mark.parametrize("name", list("abcde"))
+def test_samples_reach_the_figures_asked_for(name):
+    """F1 with a tolerance of 2 px; measured: 0.990, 0.966, 0.990, 1.000, 0.951."""
+    sample = load_sample(name)
+    found = detect_walls(sample.drawing).mask
+    assert compare_masks(found, sample.world.occupied).f1 >= 0.95
 
 
 def test_a_least_thickness_leaves_thin_walls_out():
@@ -232,12 +229,12 @@ def test_a_widest_gap_leaves_thicker_hollow_walls_out():
     assert not found_in(STYLES["hollow"], max_gap_px=2.0)[60:70, 161:165].any()
 
 
-def test_longest_symbol_decides_what_is_lettering():
-    everything = {t: i for t, i in detect_walls(Drawing(rgb=STYLES["solid"])).stages}
-    keep = detect_walls(Drawing(rgb=STYLES["solid"]), WallParams(max_symbol_px=3))
-    words = np.s_[112:128, 50:100]
-    assert (everything["Text and symbols removed"][words] == 255).all()
-    assert (dict(keep.stages)["Text and symbols removed"][words] == 0).any()
+def test_a_shortest_piece_drops_shorter_groups():
+    wall = WALL.copy()
+    wall[100:120, 60:80] = True  # a column
+    column = np.s_[102:118, 62:78]
+    assert found_in(colour(wall))[column].all()
+    assert not found_in(colour(wall), min_piece_px=40.0)[column].any()
 
 
 def test_no_doors_are_looked_for_without_a_fit():
@@ -252,11 +249,15 @@ def test_no_doors_are_looked_for_without_a_fit():
     ("field", "value"),
     [
         ("ink_level", 1.0),
-        ("fill_level", -0.1),
+        ("ink_level", None),
+        ("ink_level", "dark"),
+        ("ink_level", True),
+        ("straighten", 1),
+        ("shadow_window_px", -0.1),
         ("min_wall_px", -1.0),
         ("max_gap_px", float("nan")),
-        ("max_wall_px", float("inf")),
-        ("min_slenderness", 0.5),
+        ("max_gap_px", float("inf")),
+        ("min_piece_px", 1e9),
         ("door_fit", 0.3),
     ],
 )
@@ -265,22 +266,16 @@ def test_parameters_outside_their_domain_are_refused(field, value):
         WallParams(**{field: value})
 
 
-def test_thinnest_wall_above_thickest_is_refused():
-    with pytest.raises(ParameterError, match="min_wall_px must not exceed max_wall_px"):
-        WallParams(min_wall_px=9.0, max_wall_px=4.0)
-
-
 def test_every_stage_has_its_note_and_sliders_name_parameters():
     detection = detect_walls(Drawing(rgb=STYLES["solid"]))
     assert [title for title, _ in detection.stages] == list(STAGE_NOTES)
     for _, image in detection.stages:
         assert image.shape == WALL.shape
         assert image.dtype == np.uint8
-    defaults = WallParams()
     for note in STAGE_NOTES.values():
         assert note.sliders
         for slider in note.sliders:
-            assert slider.low <= getattr(defaults, slider.field) <= slider.high
+            assert slider.step > 0
             for bound in (slider.low, slider.high):
                 WallParams(**{slider.field: bound})
 

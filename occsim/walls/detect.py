@@ -1,46 +1,57 @@
 """Wall detection: from a drawing to a wall mask, stage by stage."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 
-from occsim._types import ByteArray, FloatArray
+from occsim._types import ByteArray
 from occsim.imaging import Drawing
-from occsim.walls.arcs import find_swings
-from occsim.walls.bands import textured, wall_bands
-from occsim.walls.connect import connected_walls, line_walls
-from occsim.walls.doors import Doors, find_doors
-from occsim.walls.gaps import find_gaps
-from occsim.walls.hollow import gap_limits, hollow_walls
-from occsim.walls.ink import darkness, find_fills, find_ink
-from occsim.walls.measures import Measures, measure
-from occsim.walls.params import Stage, WallDetection, WallParams
-from occsim.walls.raster import box, closed, components, dilated, opened
-from occsim.walls.runs import strip_votes
-from occsim.walls.upright import Frame, reduced, working_frame
+from occsim.imaging.tilt import direction_peaks, main_direction
+from occsim.walls.doors import Door, doorways_of, find_doors, leaves
+from occsim.walls.groups import doorways, without_short, without_strays
+from occsim.walls.hollow import hollow_walls, oblique_walls
+from occsim.walls.params import WallParams
+from occsim.walls.raster import box, components, dilated, opened
+from occsim.walls.result import Certainty, Stage, WallDetection
+from occsim.walls.sheet import Sheet, find_ink, first_scale, scaled, sheet_of
+from occsim.walls.strokes import Measures, measure
 
-HOLLOW_SHARE = 0.1
-"""Share of all walls that hollow ones must have for a drawing to use them."""
+ALL_INK = 0.6
+"""Share of the sheet that may be ink; more is a photograph or an even sheet."""
 
-INKED_SHARE = 0.6
-"""Share of thick areas that must be ink for solid walls to be the drawing's own."""
+LONG_STROKE = 3.0
+"""Length, in usual walls, from which a thin stroke may be a partition."""
 
-SPECK = 1.75
-"""Side of the smallest mass that may be a column, in thinnest walls."""
+ALL_LONG = 0.9
+"""Share of the thin strokes that must be long for all of them to be partitions."""
+
+THIN_WALL = 0.2
+"""Thickness of the thinnest partition among thicker walls, in usual walls."""
+
+OBLIQUE_SHARE = 0.03
+"""Contrast in a direction, as a share of the main one's, from which walls lie in it."""
+
+OBLIQUE_RAD = np.radians(4.0)
+"""Angle from rows and columns from which a wall is looked for on a turned sheet."""
+
+LINE_WALLS = 0.1, 0.5
+"""Length of a group, and of the longest group, of a drawing of bare lines, in lengths
+of all of it: a building reaches across its drawing, furniture does not."""
+
+SHIFT = 0.25
+"""Change of the thinnest wall, as a share, under which sure walls stay."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Strokes:
-    """What is left of the ink once text and doors are out.
+class _Ink:
+    """Ink of a sheet, the doors taken out of it, and the solid walls in it."""
 
-    Lines, ink thicker than lines, grey and coloured fills, and the doors.
-    """
-
-    lines: ByteArray
-    mass: ByteArray
-    fills: ByteArray
-    doors: Doors
+    every: ByteArray
+    rest: ByteArray
+    doors: tuple[Door, ...]
+    solid: ByteArray
+    m: Measures
 
 
 def detect_walls(
@@ -49,9 +60,9 @@ def detect_walls(
 ) -> WallDetection:
     """Find the walls in a drawing by image processing.
 
-    Solid walls are found by their thickness, hollow ones as long narrow gaps between
-    lines, hatched and filled ones as bands of even thickness. Text, doors, stairs,
-    tiles and furniture are left out by rules of shape, so that the result is imperfect.
+    How thick lines and walls are is read from the drawing; every other length follows
+    from that. Solid walls are what an opening leaves; hollow and hatched ones are
+    found as long lines at usual distances. The result is imperfect.
 
     Parameters
     ----------
@@ -63,112 +74,149 @@ def detect_walls(
     Returns
     -------
     WallDetection
-        The mask, shape (H, W), and a picture for each stage.
+        The mask, shape (H, W), a picture for each stage, what is doubtful, and how
+        sure all of it is.
     """
-    rgb, reduction = reduced(drawing.rgb)
-    dark = darkness(rgb, params.shadow_window_px * reduction)
-    frame = working_frame(dark, params.straighten, drawing.shape)
-    ink = find_ink(frame.dark, params.ink_level)
-    m = measure(ink, params, frame.scale)
-    letters = _letters(ink, m)
-    strokes = _strokes(frame.dark, ink & ~letters, letters, params, m)
-    gaps, bands, walls = _walls(strokes, params, m)
-    shortest = params.min_piece_px * m.scale
-    found = connected_walls(walls, strokes.mass, strokes.doors, shortest)
-    if found.sum() < m.extent * m.thin:
-        walls = line_walls(strokes.lines, strokes.doors, m.extent)
-        found = connected_walls(walls, walls, strokes.doors, shortest)
+    sheet = _sheet(drawing, params)
+    ink = _ink(find_ink(sheet.dark, params.ink_level), sheet.scale, params)
+    hollow = _hollow(sheet.dark, ink)
+    walls = ink.solid | hollow
+    found = walls
+    if ink.m.gaps:
+        found = without_strays(walls, ink.solid, ink.rest, ink.m)
+    if params.min_piece_px:
+        found = without_short(found, params.min_piece_px * sheet.scale)
+    certainty, doubtful = _certainty(ink, walls, found, sheet.scale)
     stages = (
-        Stage("Darkness", _full_size(255 - dark, drawing.shape)),
-        _stage(frame, "Ink", ink),
-        _stage(frame, "Text and symbols removed", ink & ~letters),
-        _stage(frame, "Doors removed", strokes.lines, strokes.doors.openings),
-        _stage(frame, "Solid walls", strokes.mass),
-        _stage(frame, "Filled and hatched walls", bands, strokes.fills),
-        _stage(frame, "Hollow walls and windows", gaps[0], gaps[1]),
-        _stage(frame, "Connected walls", found, walls),
+        Stage("Darkness", sheet.picture(255 - sheet.dark)),
+        _stage(sheet, "Ink", ink.every),
+        _stage(sheet, "Doors removed", ink.rest, doorways_of(found.shape, ink.doors)),
+        _stage(sheet, "Solid walls", ink.solid),
+        _stage(sheet, "Hollow walls and windows", hollow),
+        _stage(sheet, "Connected walls", found, walls),
     )
-    return WallDetection(mask=frame.back(found), stages=stages)
+    return WallDetection(
+        sheet.back(found), stages, doubtful=sheet.back(doubtful), certainty=certainty
+    )
 
 
-def _full_size(image: ByteArray, shape: tuple[int, int]) -> ByteArray:
-    """Return a picture at the drawing's size."""
-    if image.shape == shape:
-        return image
-    return np.asarray(cv2.resize(image, shape[::-1]), dtype=np.uint8)
+def _sheet(drawing: Drawing, params: WallParams) -> Sheet:
+    """Return the working copy of a drawing, upright."""
+    gray = cv2.cvtColor(drawing.rgb, cv2.COLOR_RGB2GRAY).astype(np.uint8, copy=False)
+    scale = first_scale(drawing.shape)
+    small = scaled(gray, scale)
+    tilt_rad = main_direction(small) if params.straighten else 0.0
+    return sheet_of(small, drawing.shape, scale, tilt_rad, params.shadow_window_px)
+
+
+def _ink(every: ByteArray, scale: float, params: WallParams) -> _Ink:
+    """Take doors out of the ink, and find the solid walls in the rest."""
+    if np.count_nonzero(every) > ALL_INK * every.size:
+        every = np.zeros_like(every)
+    m = _measured(every, scale, params)
+    solid = _solid(every, m)
+    doors = find_doors(every, every & ~dilated(solid, box(3)), m, params.door_fit)
+    leaf = leaves(every, doors, m)
+    rest = every & ~leaf
+    if leaf.any():
+        m = _measured(rest, scale, params)
+        solid = _solid(rest, m)
+    return _Ink(every, rest, doors, solid, m)
+
+
+def _measured(ink: ByteArray, scale: float, params: WallParams) -> Measures:
+    """Return the lengths of a drawing, or those that are given."""
+    m = measure(ink)
+    if params.min_wall_px:
+        m = replace(m, solid=max(round(params.min_wall_px * scale), 1))
+    if params.max_gap_px:
+        widest = params.max_gap_px * scale
+        m = replace(m, gaps=tuple(gap for gap in m.gaps if gap <= widest))
+    return m
+
+
+def _solid(ink: ByteArray, m: Measures) -> ByteArray:
+    """Return the solid walls: strokes that are thick enough."""
+    solid = opened(ink, box(m.solid))
+    if m.bare:
+        return _line_walls(solid)
+    if not m.thick or m.line < THIN_WALL * m.wall:
+        return solid
+    thin = components(ink & ~dilated(solid, box(3)))
+    long = thin.longest >= LONG_STROKE * m.wall
+    if thin.area[long].sum() < ALL_LONG * thin.area.sum():
+        return solid
+    # No text, no doors, no furniture: what is thin here are thin walls.
+    return opened(ink, box(m.line / 2))
+
+
+def _line_walls(ink: ByteArray) -> ByteArray:
+    """Return the groups of lines that reach across a drawing of one kind of stroke."""
+    groups = components(ink)
+    rows, cols = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    if not len(rows):
+        return ink
+    extent = max(np.ptp(rows), np.ptp(cols)) + 1
+    if groups.longest.max() < LINE_WALLS[1] * extent:
+        return np.zeros_like(ink)
+    return ink & groups.chosen(groups.longest >= LINE_WALLS[0] * extent)
+
+
+def _hollow(dark: ByteArray, ink: _Ink) -> ByteArray:
+    """Return hollow walls and windows, along rows and columns and at other angles."""
+    m = ink.m
+    if not m.gaps and not m.thick:
+        return np.zeros_like(dark)
+    firm = ink.solid if m.thick else np.zeros_like(ink.solid)
+    hollow = hollow_walls(ink.rest, firm, m)
+    if m.gaps:
+        peaks = direction_peaks(dark, OBLIQUE_SHARE)
+        for direction in [one for one in peaks if abs(one) > OBLIQUE_RAD][:2]:
+            hollow |= oblique_walls(ink.rest, firm, direction, m)
+    return hollow
 
 
 def _stage(
-    frame: Frame, title: str, black: ByteArray, grey: ByteArray | None = None
+    sheet: Sheet, title: str, black: ByteArray, grey: ByteArray | None = None
 ) -> Stage:
     """Draw a stage: what it keeps in black, what it only considered in grey."""
-    image = np.where(frame.back(black), 0, 255).astype(np.uint8)
+    image = np.where(black > 0, 0, 255).astype(np.uint8)
     if grey is not None:
-        image[frame.back(grey) & (image > 0)] = 190
-    return Stage(title, image)
+        image[(grey > 0) & (black == 0)] = 190
+    return Stage(title, sheet.picture(image))
 
 
-def _letters(ink: ByteArray, m: Measures) -> ByteArray:
-    """Return text and symbols: small, or larger but without any long stroke."""
-    parts = components(ink)
-    straight = opened(ink, box(m.symbol, 1)) | opened(ink, box(1, m.symbol))
-    curly = (parts.total(straight) == 0) & (parts.longest <= 0.15 * m.extent)
-    return parts.chosen(curly | (parts.longest <= m.symbol))
-
-
-def _strokes(
-    dark: ByteArray,
-    ink: ByteArray,
-    letters: ByteArray,
-    params: WallParams,
-    m: Measures,
-) -> _Strokes:
-    """Tell lines, masses and fills apart, and take the doors out of them."""
-    mass = _without_specks(opened(ink, box(m.thin)), m)
-    fills = find_fills(dark, letters, m, params.fill_level)
-    swings = find_swings(ink & ~dilated(mass, box(3)), m, params.door_fit)
-    doors = find_doors(swings, ink, m)
-    return _Strokes(
-        ink & ~doors.leaves, mass & ~doors.leaves, fills & ~doors.leaves, doors
+def _certainty(
+    ink: _Ink, walls: ByteArray, found: ByteArray, scale: float
+) -> tuple[Certainty, ByteArray]:
+    """Return how sure the walls are, and which pieces are doubtful."""
+    m = ink.m
+    dropped = walls & ~found
+    thicker = opened(ink.rest, box(np.ceil((1 + SHIFT) * m.solid)))
+    thinner = opened(ink.rest, box(np.floor((1 - SHIFT) * m.solid)))
+    shaky = (ink.solid & ~dilated(thicker, box(3))) | (
+        thinner & ~dilated(ink.solid, box(3))
     )
-
-
-def _without_specks(mass: ByteArray, m: Measures) -> ByteArray:
-    """Drop what is hardly larger than it is thick: crossings of lines, arrowheads."""
-    parts = components(mass)
-    return parts.chosen(parts.area >= (SPECK * m.thin) ** 2)
-
-
-def _walls(
-    s: _Strokes, params: WallParams, m: Measures
-) -> tuple[tuple[ByteArray, ByteArray], ByteArray, ByteArray]:
-    """Return gaps taken and considered, bands taken, and all walls."""
-    areas = textured(s.lines | s.fills, m.line) | s.fills
-    votes = _votes(s, areas, m)
-    limits = gap_limits(votes["gaps"], votes["areas"], params, m)
-    solid = s.mass
-    if not limits.hollow and s.mass.sum() < INKED_SHARE * (s.mass | areas).sum():
-        solid = np.zeros_like(solid)  # blots in the hatching, not walls
-    bands = np.zeros_like(solid)
-    if not limits.hollow:
-        bands = wall_bands(areas & ~solid, solid, m)
-    gaps = find_gaps(s.lines | solid | bands, limits.widest_px, m.line)
-    taken = gaps.parts.chosen(hollow_walls(gaps, s.doors.openings, limits))
-    faces = dilated(taken, box(2 * m.line + 1)) & s.lines
-    walls = solid | bands | taken | faces
-    if limits.hollow:
-        bands = wall_bands(areas & ~walls, walls, m)
-    walls = opened(closed(walls | bands, box(2)), box(m.thin))
-    return (taken, gaps.parts.chosen(gaps.slenderness > 1)), bands, walls
-
-
-def _votes(s: _Strokes, areas: ByteArray, m: Measures) -> dict[str, FloatArray]:
-    """Return how much of each way of drawing walls there is, by thickness."""
-    longest = int(m.thick)
-    gaps = strip_votes(s.lines | s.mass, 0, longest, m.line)
-    gaps[: max(2, m.line)] = 0.0  # the inside of a door leaf
-    masses = strip_votes(areas | s.mass, 1, longest, m.line)
-    if gaps.sum() < HOLLOW_SHARE * (gaps.sum() + masses.sum()):
-        gaps[:] = 0.0
-    ink = strip_votes(s.mass, 1, longest, m.line)
-    return {"gaps": gaps, "areas": masses, "mass": ink}
+    pieces = components(shaky)
+    doubtful = dropped | pieces.chosen(pieces.longest >= m.wall)
+    area = int(np.count_nonzero(found))
+    kept = int(np.count_nonzero(ink.rest & found))
+    notes = []
+    if not area:
+        notes.append("No walls were found.")
+    if dropped.any():
+        notes.append("Pieces that belong to no building were dropped.")
+    if m.gaps and not m.thick:
+        notes.append("Walls are drawn as pairs of lines here.")
+    return (
+        Certainty(
+            confidence=max(0.0, 1 - np.count_nonzero(shaky) / area) if area else 0.0,
+            removed_share=1 - kept / max(int(np.count_nonzero(ink.every)), 1),
+            dropped=len(components(dropped).area) - 1,
+            wall_px=m.wall / scale if area else float("nan"),
+            doors_px=tuple(door.radius_px / scale for door in ink.doors),
+            doorways_px=tuple(w / scale for w in doorways(found, ink.rest, m)[1]),
+            notes=tuple(notes),
+        ),
+        doubtful,
+    )

@@ -1,177 +1,264 @@
-"""Hollow walls: long gaps between two parallel lines; and windows."""
+"""Hollow and hatched walls, and windows: long lines beside each other.
+
+Hatching, text and curved lines are no long lines along rows or columns, so that a
+hatched wall is a hollow one. A wall at another angle is found on a turned sheet.
+"""
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
-from occsim.walls.gaps import Gaps
-from occsim.walls.measures import Measures
-from occsim.walls.params import WallParams
+from occsim.walls.raster import (
+    Components,
+    as_bytes,
+    box,
+    closed,
+    components,
+    dilated,
+    flipped,
+)
+from occsim.walls.sheet import turned_by
+from occsim.walls.strokes import (
+    ROOM,
+    Measures,
+    Runs,
+    column_runs,
+    gap_lengths,
+    level_lines,
+)
 
-USUAL_SHARE = 0.08
-"""Share of all votes from which a width of gap is one that the drawing uses."""
+SURE_SHARE = 0.3
+"""Share of a strip that must have room beside it; the rest may hold furniture."""
 
-STACK = 4
-"""Gaps side by side from which they are treads, ribs or tiles; a window has three."""
-
-TREAD_SLENDERNESS = 1.2
-"""Length over width from which a gap may be a tread, or the half of one."""
-
-SEED_SLENDERNESS = 8.0
-"""Length over width from which a gap is a wall's by itself."""
-
-STEADY = 0.85
-"""Share of a gap's area that must be of one width; letters and leaves are not."""
-
-STRAIGHT = 0.8
-"""Least straightness of a short gap that goes on from a wall."""
+SEED_LENGTH = 5.0
+"""Length, in usual walls, from which a strip with room on both sides is a wall."""
 
 BESIDE_SHARE = 0.35
-"""Share of a gap's length beside a wall from which it is furniture along the wall."""
+"""Share of a strip's length along a wall from which it is furniture beside it."""
 
-ENCLOSED = 0.8
-"""Share of a gap's boundary that walls must hold for it to lie inside one."""
+JOINT = 1.5
+"""What corners and crossing lines leave open of a wall's end, in usual walls."""
+
+AHEAD = 4.0
+"""How far ahead a wall may go on in line with itself, in usual walls."""
+
+PANES = 2
+"""Lines between the faces of a window; fewer are sills, doors or furniture."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class GapLimits:
-    """What gaps may be a hollow wall's or a window's.
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Strips between two lines, as far as they may be part of a wall.
 
     Parameters
     ----------
-    low_px, high_px : float
-        Clear width of hollow walls, px; none where low exceeds high.
-    window_px : float
-        Widest gap of a window, px.
-    slenderness : float
-        Least length over width.
-    seed_px : float
-        Least length of a gap that is a wall's by itself, px.
+    mask : ndarray of uint8, shape (h, w)
+        The strips.
+    parts : Components
+        Each of them.
+    upright : bool
+        Whether they run down columns.
+    sure, likely : ndarray of float64, shape (N,)
+        Share of each strip with room on both sides, and on one side at least.
     """
 
-    low_px: float
-    high_px: float
-    window_px: float
-    slenderness: float
-    seed_px: float
+    mask: ByteArray
+    parts: Components
+    upright: bool
+    sure: FloatArray
+    likely: FloatArray
 
     @property
-    def hollow(self) -> bool:
-        """Whether the drawing has hollow walls."""
-        return self.low_px <= self.high_px
+    def length(self) -> IntArray:
+        """Length of each strip along its lines, px."""
+        return self.parts.height if self.upright else self.parts.width
 
-    @property
-    def widest_px(self) -> float:
-        """Widest gap to look for, px; where walls meet, gaps are wider."""
-        return max(1.3 * self.high_px, self.window_px, 1.0)
+    def as_wide_as(self, gap: int) -> BoolArray:
+        """Which strips are as wide as a usual gap; all are for a gap of 0."""
+        width = self.parts.area / np.maximum(self.length, 1)
+        return (np.abs(width - gap) <= 1 + 0.1 * gap) | (gap == 0)
 
 
-def gap_limits(
-    gap_votes: FloatArray, area_votes: FloatArray, params: WallParams, m: Measures
-) -> GapLimits:
-    """Return the limits for a drawing.
+def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
+    """Return the hollow and hatched walls, and the windows, along rows and columns.
 
     Parameters
     ----------
-    gap_votes, area_votes : ndarray of float64
-        How much of hollow walls and of solid ones there is, by thickness in px.
-    params : WallParams
-        Settings.
+    ink : ndarray of uint8, shape (h, w)
+        Ink of an upright sheet.
+    solid : ndarray of uint8, shape (h, w)
+        Solid walls, on which hollow ones and windows may hang.
     m : Measures
         Lengths of the drawing.
+
+    Returns
+    -------
+    ndarray of uint8, shape (h, w)
+        Walls with their faces.
     """
-    usual = _usual(gap_votes)
-    common = _usual(area_votes)
-    low, high = (0.6 * usual.min(), usual.max() + 1.5) if len(usual) else (1.0, 0.0)
-    if params.max_gap_px:
-        low, high = min(low, 1.0 * m.line), m.scale * params.max_gap_px
-    return GapLimits(
-        low_px=float(low),
-        high_px=float(high),
-        window_px=float(max(high - 1.5, common.max() if len(common) else 0.0)),
-        slenderness=params.min_slenderness,
-        seed_px=m.seed,
-    )
-
-
-def _usual(votes: FloatArray) -> IntArray:
-    """Return the thicknesses that hold, with their neighbours, many of the votes."""
-    padded = np.pad(votes, 1)
-    near = padded[:-2] + padded[1:-1] + padded[2:]
-    common = (near > USUAL_SHARE * votes.sum()) & (votes > near / 4)
-    return np.flatnonzero(common)
-
-
-def hollow_walls(gaps: Gaps, doorways: ByteArray, limits: GapLimits) -> BoolArray:
-    """Return which gaps belong to hollow walls or windows, shape (N,).
-
-    Parameters
-    ----------
-    gaps : Gaps
-        Narrow places between ink.
-    doorways : ndarray of uint8, shape (h, w)
-        Openings that door leaves close; they stay open.
-    limits : GapLimits
-        What gaps to take.
-    """
-    slender, stack = _candidates(gaps, doorways, limits)
-    wall_like = slender & (gaps.width >= limits.low_px) & (gaps.width <= limits.high_px)
-    seeds = wall_like & (gaps.slenderness >= SEED_SLENDERNESS)
-    walls = _longest_first(gaps, seeds & (gaps.length >= limits.seed_px))
-    walls = slender & np.isin(stack, stack[walls])
-    straight = (gaps.straightness > STRAIGHT) & (gaps.straightness < 1 / STRAIGHT)
-    walls = _grown(gaps, walls, wall_like & straight, 0.5)
-    # A window's gaps are narrower than the wall's: side by side, or from wall to wall.
-    panes = slender & straight & (gaps.width <= limits.window_px)
-    side_by_side = np.bincount(stack)[stack] > 1
-    walls = _grown(gaps, walls, panes & side_by_side, 0.5)
-    walls = _grown(gaps, walls, panes, 1.4)
-    return _filled(gaps, walls, limits.slenderness)
-
-
-def _candidates(
-    gaps: Gaps, doorways: ByteArray, limits: GapLimits
-) -> tuple[BoolArray, IntArray]:
-    """Which gaps are shaped like a wall's, and the number of each gap's stack."""
-    shaped = (gaps.steady >= STEADY) & (gaps.slenderness >= TREAD_SLENDERNESS)
-    # Open at its ends at most, or at a few of a network's.
-    shaped &= gaps.ajar <= np.maximum(3 * gaps.width + 2, 0.1 * gaps.length)
-    shaped[0] = False
-    stack = gaps.stacks(shaped)
-    treads = shaped & (np.bincount(stack)[stack] >= STACK)
-    slender = shaped & ~treads & (gaps.slenderness >= limits.slenderness)
-    slender &= gaps.mass <= 2 * BESIDE_SHARE * gaps.length
-    slender &= gaps.parts.total(doorways) < 0.5 * gaps.parts.area
-    return slender, stack
-
-
-def _longest_first(gaps: Gaps, seeds: BoolArray) -> BoolArray:
-    """Accept gaps from the longest on, but none along one already accepted."""
-    walls = np.zeros_like(seeds)
-    order = np.flatnonzero(seeds)
-    for index in order[np.argsort(-gaps.length[order], kind="stable")]:
-        others, shared = gaps.neighbours(index)
-        beside = shared[walls[others]].sum()
-        walls[index] = beside <= BESIDE_SHARE * gaps.length[index]
-    return walls
-
-
-def _grown(gaps: Gaps, walls: BoolArray, likely: BoolArray, least: float) -> BoolArray:
-    """Add gaps that touch walls end-on, over at least `least` of their width."""
-    for _ in range(20):
-        touch = gaps.shared(walls) + gaps.mass
-        end_on = (touch >= least * gaps.width) & (touch <= 3 * gaps.width + 2)
-        more = likely & end_on & ~walls & (touch <= 0.7 * gaps.length)
-        if not more.any():
+    every = [_strips(ink, m, False), _strips(flipped(ink), m, True)]
+    found = [s.parts.chosen(_seeds(s, m)) for s in every]
+    walls = _with_ends(found, ink, m)
+    # Walls that hang on walls that hang on seeds; the commonest kind first.
+    for gap in (*m.gaps, 0) * 3:
+        sure = walls | solid
+        if not sure.any():
             break
-        walls = walls | more
-    return walls
+        more = [
+            s.parts.chosen(
+                _joined(s, sure, [f | solid for f in found], m) & s.as_wide_as(gap)
+            )
+            for s in every
+        ]
+        found = [a | b for a, b in zip(found, more, strict=True)]
+        walls = _with_ends(found, ink, m)
+    return walls | (dilated(walls, box(2 * m.line + 3)) & ink)
 
 
-def _filled(gaps: Gaps, walls: BoolArray, slender: float) -> BoolArray:
-    """Add short bits of gap that lie inside walls."""
-    held = gaps.shared(walls) + gaps.mass
-    inside = (held >= ENCLOSED * gaps.boundary) & (gaps.slenderness < slender)
-    inside[0] = False
-    return walls | inside
+def oblique_walls(
+    ink: ByteArray, solid: ByteArray, direction_rad: float, m: Measures
+) -> ByteArray:
+    """Return the hollow walls along another direction, and across it."""
+    turned, turn = turned_by(ink * np.uint8(255), direction_rad)
+    long = gap_lengths(as_bytes(turned > 127), SEED_LENGTH * m.wall, m.line)
+    if not any(long[gap] > m.wall for gap in m.gaps):
+        return np.zeros_like(ink)
+    solid, _ = turned_by(solid * np.uint8(255), direction_rad)
+    walls = hollow_walls(as_bytes(turned > 127), as_bytes(solid > 127), m)
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    back = cv2.warpAffine(walls * np.uint8(255), turn, ink.shape[::-1], flags=flags)
+    return as_bytes(np.asarray(back) > 127)
+
+
+def _seeds(s: Strips, m: Measures) -> BoolArray:
+    return (s.sure >= SURE_SHARE) & (s.length >= SEED_LENGTH * m.wall)
+
+
+def _joined(
+    s: Strips, walls: ByteArray, found: list[ByteArray], m: Measures
+) -> BoolArray:
+    """Return which strips touch walls at their ends, but do not lie along one.
+
+    Strips may open into the corner or junction that walls were let go on to, and go on
+    from a wall in line with them; across a line they may only touch what is surely
+    wall.
+    """
+    across, ahead = 4 * m.line + 1, 2 * AHEAD * m.wall
+    sides, ends = (
+        (box(across, 1), box(1, ahead))
+        if s.upright
+        else (box(1, across), box(ahead, 1))
+    )
+    joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall / 2)
+    joined &= _touched(s, dilated(walls, sides)) <= BESIDE_SHARE * s.length
+    near = dilated(walls, box(3)) | dilated(found[s.upright], ends)
+    near |= dilated(
+        found[not s.upright], box(across, 1) if not s.upright else box(1, across)
+    )
+    near |= dilated(found[not s.upright], sides)
+    return joined & (_touched(s, near) > 0)
+
+
+def _touched(s: Strips, near: ByteArray) -> IntArray:
+    """Return along how much of its length each strip has pixels of a mask, px."""
+    at = np.flatnonzero(near & s.mask)
+    width = near.shape[1]
+    along = at // width if s.upright else at % width
+    side = max(near.shape)
+    pairs = np.unique(s.parts.labels.ravel()[at].astype(np.int64) * side + along)
+    return np.bincount(pairs // side, minlength=len(s.length))
+
+
+def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
+    """Return the strips along the rows of a view of the sheet, in the sheet's frame."""
+    runs = column_runs(level_lines(view, max(1.2 * m.wall, 10.0)))
+    between = ((0, 1, PANES) if not m.thick else (0, PANES)) if m.gaps else (PANES,)
+    masks = [np.zeros_like(view) for _ in range(3)]
+    for lines in between:
+        top, bottom, column, rooms = _pairs(runs, m, lines)
+        for least in (0, 1, 2):
+            # What holds lines and has no room beside it is a stair or a shelf.
+            fits = rooms >= max(least, min(lines, 1))
+            masks[least] |= _filled(view.shape, top[fits], bottom[fits], column[fits])
+    masks[0] = closed(masks[0], box(2 * m.line + 1, 1))
+    if upright:
+        masks = [flipped(mask) for mask in masks]
+    parts = components(masks[0], 4)
+    likely, sure = (parts.total(mask) / np.maximum(parts.area, 1) for mask in masks[1:])
+    return Strips(masks[0], parts, upright, sure, likely)
+
+
+def _pairs(
+    runs: Runs, m: Measures, lines_between: int
+) -> tuple[IntArray, IntArray, IntArray, IntArray]:
+    """Return the pairs of lines at a usual distance in each column.
+
+    Returns
+    -------
+    top, bottom : ndarray of int64, shape (K,)
+        First row between the lines, and the row after the last.
+    column : ndarray of int64, shape (K,)
+    rooms : ndarray of int64, shape (K,)
+        On how many sides there is more room beyond the lines than between them.
+    """
+    step = 2 * (lines_between + 1)
+    first = np.flatnonzero(runs.value[1 : -step - 1] == 1) + 1
+    last = first + step
+    whole = (runs.column[first] == runs.column[last]) & (runs.value[last] == 1)
+    for line in range(0, step + 1, 2):
+        whole &= runs.length[first + line] <= 3 * m.line
+    first, last = first[whole], last[whole]
+    top = runs.start[first] + runs.length[first]
+    bottom = runs.start[last]
+    fits = _one_of(bottom - top, m.gaps)
+    if lines_between:
+        thick = bottom - top + runs.length[first] + runs.length[last]
+        fits |= _one_of(thick, m.thick)
+    first, last, top, bottom = first[fits], last[fits], top[fits], bottom[fits]
+    widest = np.max([runs.length[first + gap] for gap in range(1, step, 2)], axis=0)
+    rooms = np.zeros(len(first), dtype=np.int64)
+    for beyond in (first - 1, last + 1):
+        roomy = runs.length[beyond] >= ROOM * widest + m.line
+        rooms += roomy | (runs.value[beyond] != 0)
+    return top, bottom, runs.column[first], rooms
+
+
+def _one_of(lengths: IntArray, usual: tuple[int, ...]) -> BoolArray:
+    """Which lengths are a usual one, as drawn: to a tenth and a pixel."""
+    found = np.zeros(len(lengths), dtype=bool)
+    for px in usual:
+        found |= np.abs(lengths - px) <= 1 + 0.1 * px
+    return found
+
+
+def _filled(
+    shape: tuple[int, ...], top: IntArray, bottom: IntArray, column: IntArray
+) -> ByteArray:
+    """Return a mask of the given spans down its columns."""
+    edge = np.zeros((shape[0] + 1, shape[1]), dtype=np.int8)
+    np.add.at(edge, (top, column), 1)
+    np.subtract.at(edge, (bottom, column), 1)
+    return as_bytes(np.cumsum(edge[:-1], axis=0, dtype=np.int8) > 0)
+
+
+def _with_ends(found: list[ByteArray], ink: ByteArray, m: Measures) -> ByteArray:
+    """Return strips, gone on to the next line across: corners and junctions."""
+    level = closed(found[0], box(JOINT * m.wall, 1))
+    upright = closed(found[1], box(1, JOINT * m.wall))
+    level_ends = flipped(_ends(flipped(level), flipped(ink), m))
+    return level | upright | level_ends | _ends(upright, ink, m)
+
+
+def _ends(walls: ByteArray, ink: ByteArray, m: Measures) -> ByteArray:
+    """Return the short runs of paper at the ends of walls that run down columns."""
+    kind = np.where(walls > 0, 3, 1 - ink).astype(np.uint8)
+    # Columns without a wall have no ends; most of the sheet is left out.
+    used = np.flatnonzero(walls.any(axis=0))
+    runs = column_runs(kind[:, used])
+    rest = np.flatnonzero((runs.value == 1) & (runs.length <= JOINT * m.wall))
+    rest = rest[(rest > 0) & (rest < len(runs.value) - 1)]
+    rest = rest[(runs.value[rest - 1] == 3) | (runs.value[rest + 1] == 3)]
+    top = runs.start[rest]
+    return _filled(walls.shape, top, top + runs.length[rest], used[runs.column[rest]])

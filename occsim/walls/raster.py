@@ -1,7 +1,6 @@
 """Small operations on binary pictures: uint8, one where the thing is, else zero."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import cv2
 import numpy as np
@@ -57,123 +56,48 @@ def _bytes(image: object) -> ByteArray:
 class Components:
     """Connected components of a mask; number 0 is what lies outside the mask.
 
-    Everything is counted over the mask's own pixels, of which drawings have few.
-
     Parameters
     ----------
     labels : ndarray of int32, shape (H, W)
         Number of the component of each pixel.
-    places : ndarray of int64, shape (P,)
-        Flat places of the mask's pixels, ascending.
-    numbers : ndarray of int32, shape (P,)
-        Component of each of these pixels.
-    count : int
-        Number of components N, with what lies outside the mask.
+    left, top, width, height, area : ndarray of int64, shape (N,)
+        Bounding boxes and pixels of each, px; 0 for number 0.
     """
 
     labels: IntArray
-    places: IntArray
-    numbers: IntArray
-    count: int
-
-    @cached_property
-    def area(self) -> IntArray:
-        """Pixels of each component, shape (N,); 1 for number 0, never divided by 0."""
-        area = np.bincount(self.numbers, minlength=self.count)
-        area[0] = 1
-        return np.asarray(area, dtype=np.int64)
-
-    @cached_property
-    def boxes(self) -> IntArray:
-        """Left, top, width and height of each component, px, shape (4, N)."""
-        boxes = np.zeros((4, self.count), dtype=np.int64)
-        if self.count > 1:
-            order = np.argsort(self.numbers, kind="stable")
-            rows, cols = np.divmod(self.places[order], self.labels.shape[1])
-            first = np.concatenate([[0], np.cumsum(self.area[1:-1])])
-            left, top = (np.minimum.reduceat(at, first) for at in (cols, rows))
-            right, bottom = (np.maximum.reduceat(at, first) for at in (cols, rows))
-            boxes[:, 1:] = left, top, right - left + 1, bottom - top + 1
-        return boxes
-
-    @property
-    def left(self) -> IntArray:
-        """First column of each component."""
-        side: IntArray = self.boxes[0]
-        return side
-
-    @property
-    def top(self) -> IntArray:
-        """First row of each component."""
-        side: IntArray = self.boxes[1]
-        return side
-
-    @property
-    def width(self) -> IntArray:
-        """Number of columns from each component's first to its last."""
-        side: IntArray = self.boxes[2]
-        return side
-
-    @property
-    def height(self) -> IntArray:
-        """Number of rows from each component's first to its last."""
-        side: IntArray = self.boxes[3]
-        return side
+    left: IntArray
+    top: IntArray
+    width: IntArray
+    height: IntArray
+    area: IntArray
 
     @property
     def longest(self) -> IntArray:
         """Longer side of each bounding box, px."""
         return np.maximum(self.width, self.height)
 
-    def total(self, image: ByteArray | FloatArray) -> FloatArray:
-        """Return the sum of an image over each component, shape (N,)."""
-        sums = np.bincount(self.numbers, image.ravel()[self.places], self.count)
-        return np.asarray(sums, dtype=np.float64)
+    def total(self, mask: ByteArray) -> FloatArray:
+        """Return how many pixels of a mask each component has, shape (N,)."""
+        at = self.labels[mask.view(bool)]
+        return np.bincount(at, minlength=len(self.area)).astype(np.float64)
 
     def chosen(self, which: BoolArray) -> ByteArray:
         """Return the mask of the components for which `which` is true."""
-        mask = np.zeros(self.labels.shape, dtype=np.uint8)
-        mask.ravel()[self.places] = which[self.numbers]
-        return mask
+        chosen = which.astype(np.uint8)
+        chosen[0] = 0
+        return _bytes(chosen[self.labels])
 
 
 def components(mask: ByteArray, connectivity: int = 8) -> Components:
     """Return the connected components of a mask."""
-    count, labels = cv2.connectedComponents(mask, connectivity=connectivity)
-    places = np.flatnonzero(mask.view(bool))
-    numbered: IntArray = np.asarray(labels)  # int32, as OpenCV counts
-    return Components(numbered, places, numbered.ravel()[places], count)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(
+        mask, connectivity=connectivity
+    )
+    sides = stats.astype(np.int64)
+    sides[0] = 0
+    return Components(np.asarray(labels), *sides.T)
 
 
-def depth(mask: ByteArray) -> FloatArray:
-    """Return the distance of each pixel of a mask to the nearest one outside it, px.
-
-    The border of the picture counts as more of the same.
-    """
-    padded = cv2.copyMakeBorder(mask, 1, 1, 1, 1, cv2.BORDER_REPLICATE)
-    distance = cv2.distanceTransform(padded, cv2.DIST_L2, 5)
-    return np.asarray(distance[1:-1, 1:-1], dtype=np.float64)
-
-
-def narrow_places(free: ByteArray, gap_px: float) -> tuple[ByteArray, FloatArray]:
-    """Return the free pixels that no disc wider than a gap can cover.
-
-    Parameters
-    ----------
-    free : ndarray of uint8, shape (H, W)
-        Free pixels.
-    gap_px : float
-        Diameter of the widest disc that does not count, px.
-
-    Returns
-    -------
-    narrow : ndarray of uint8, shape (H, W)
-        Free pixels in places at most `gap_px` wide.
-    depth_px : ndarray of float, shape (H, W)
-        Distance to the nearest pixel that is not free.
-    """
-    depth_px = depth(free)
-    # In the middle of a gap of n pixels the depth is (n + 1) / 2.
-    reach = (gap_px + 1) / 2 + 0.5
-    core = as_bytes(depth_px < reach)
-    return free & as_bytes(depth(core) >= reach), depth_px
+def flipped(mask: ByteArray) -> ByteArray:
+    """Return a mask with rows and columns exchanged."""
+    return np.ascontiguousarray(mask.T)

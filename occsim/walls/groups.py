@@ -1,0 +1,88 @@
+"""Which pieces belong to a building: those that hang together, also across doorways."""
+
+import numpy as np
+
+from occsim._types import ByteArray
+from occsim.walls.raster import box, closed, components, dilated
+from occsim.walls.strokes import Measures
+
+DOORWAY = 8.0
+"""Widest doorway, in usual walls."""
+
+NARROWEST = 2.0
+"""Narrowest doorway, in usual walls."""
+
+LIKE_WALL = 0.35, 1.5
+"""Thickness of what joins two walls across a doorway, in usual walls."""
+
+SMALL_GROUP = 10.0
+"""Length of a group of hollow walls, in usual walls, up to which it is furniture."""
+
+FULL = 0.7
+"""Share of the box around it that a column fills, and a letter does not."""
+
+SOLID_SHARE = 0.2
+"""Share of a group that must be solid for it to be kept whatever its shape."""
+
+
+def without_strays(
+    walls: ByteArray, solid: ByteArray, ink: ByteArray, m: Measures
+) -> ByteArray:
+    """Drop hollow pieces that belong to no building: carpets, rulers, pairs of lines.
+
+    Solid pieces stay where walls are solid, whatever they are: nothing that is plainly
+    a wall may go. Where walls are hollow, what is solid is a column or a blot.
+
+    Parameters
+    ----------
+    walls : ndarray of uint8, shape (h, w)
+        All walls.
+    solid : ndarray of uint8, shape (h, w)
+        Those that are solid ink.
+    ink : ndarray of uint8, shape (h, w)
+        All ink.
+    m : Measures
+        Lengths of the drawing.
+    """
+    opening, _ = doorways(walls, ink, m)
+    groups = components(dilated(walls, box(3)) | opening)
+    inked = groups.total(solid)
+    shorter = np.minimum(groups.width, groups.height)
+    kept = inked >= SOLID_SHARE * np.maximum(groups.total(walls), 1.0)
+    if not m.thick:
+        full = inked >= FULL * groups.width * groups.height
+        kept &= full & (shorter >= m.wall)
+    kept |= (groups.longest > SMALL_GROUP * m.wall) & (shorter > 2 * m.wall)
+    return walls & groups.chosen(kept)
+
+
+def without_short(walls: ByteArray, shortest_px: float) -> ByteArray:
+    """Drop groups of connected walls that are shorter than a length, px."""
+    groups = components(walls)
+    return groups.chosen(groups.longest >= shortest_px)
+
+
+def doorways(
+    walls: ByteArray, ink: ByteArray, m: Measures
+) -> tuple[ByteArray, list[float]]:
+    """Return the openings between walls that face each other end-on, and their widths.
+
+    Returns
+    -------
+    mask : ndarray of uint8, shape (h, w)
+    widths_px : list of float
+        Of those that are as wide as doors are.
+    """
+    mask = np.zeros_like(walls)
+    widths: list[float] = []
+    reach = DOORWAY * m.wall
+    for level, kernel in ((True, box(reach, 1)), (False, box(1, reach))):
+        gaps = components(closed(walls, kernel) & ~walls & ~ink, 4)
+        side, width = gaps.height, gaps.width
+        if not level:
+            side, width = width, side
+        like_wall = side >= LIKE_WALL[0] * m.wall
+        like_wall &= side <= LIKE_WALL[1] * m.wall
+        mask |= gaps.chosen(like_wall)
+        widths += width[like_wall & (width >= NARROWEST * m.wall)].tolist()
+    return mask, widths

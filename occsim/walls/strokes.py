@@ -1,0 +1,279 @@
+"""How thick lines and walls are, and how far apart the faces of hollow walls."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occsim._types import ByteArray, FloatArray, IntArray
+from occsim.walls.raster import box, dilated, opened
+
+THICKEST_PX = 60
+"""Thickest stroke and widest gap that are told apart, px of the sheet."""
+
+RISE = 1.7
+"""How much more of a thicker stroke there must be, than of those between, for it to
+be another kind of stroke: blur and oblique strokes fill the valley in part."""
+
+COMMON_SHARE = 0.2
+"""Share of the commonest thickness' length from which a thickness is common, too."""
+
+THINNEST_WALL = 0.2, 0.6
+"""Thickness of the thinnest walls that are told from lines, in usual walls."""
+
+BLOT = 3.0
+"""Thickness from which ink is more than two lines that touch, in lines."""
+
+THICK_SHARE = 0.1
+"""Area of thick strokes, as a share of all, from which they are the walls."""
+
+LITTLE = 0.01
+"""Share of the commonest stroke's length below which a thickness is chance."""
+
+ROOM = 1.5
+"""Least room beyond a hollow wall's faces, in its own gap: treads and tiles have 1."""
+
+HOLLOW_SHARE = 0.2
+BOTH_SHARE = 0.5
+"""Length of hollow walls, as a share of all walls', from which a drawing has them."""
+
+LONG_SHARE = 0.08
+"""Length from which lines count as the faces of walls, share of the longer side."""
+
+KINDS_SHARE = 0.77
+"""Share of the two commonest gaps from which gaps are walls' and not chance."""
+
+USUAL_SHARE = 0.3
+"""Length of a gap's kind, as a share of the commonest one's, from which it is usual."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measures:
+    """Lengths of a drawing, px of the sheet.
+
+    Parameters
+    ----------
+    line : int
+        Thickness of most of its lines.
+    solid : int
+        Thinnest stroke that is a solid wall.
+    wall : float
+        Thickness of most of its walls, solid or hollow.
+    gaps : tuple of int
+        Usual gaps between the faces of hollow walls; none where it has no such walls.
+    thick : tuple of int
+        Usual thicknesses of solid walls; none where it has no such walls.
+    bare : bool
+        Whether nothing is thinner than the walls.
+    """
+
+    line: int
+    solid: int
+    wall: float
+    gaps: tuple[int, ...]
+    thick: tuple[int, ...]
+    bare: bool
+
+
+def stroke_lengths(ink: ByteArray) -> FloatArray:
+    """Return how long the strokes of each thickness are, shape (THICKEST_PX + 1,), px.
+
+    A square of k pixels fits into a stroke of n at n - k + 1 places for each pixel of
+    its length. Where the squares fit, counted for every k, falls in steps; the second
+    difference is the length of the strokes of k pixels.
+    """
+    places = np.zeros(THICKEST_PX + 3)
+    shrunk = ink
+    for size in range(1, THICKEST_PX + 3):
+        places[size] = np.count_nonzero(shrunk)
+        if not places[size]:
+            break
+        shrunk = np.asarray(cv2.erode(shrunk, box(2), anchor=(0, 0)), np.uint8)
+    lengths = places[:-2] - 2 * places[1:-1] + places[2:]
+    lengths[0] = 0.0
+    return np.maximum(lengths, 0.0)
+
+
+def commonest_line(lengths: FloatArray) -> int:
+    """Return the thickness of a drawing's lines: the first of its common strokes."""
+    near = with_neighbours(lengths)
+    first = int(np.argmax(near >= COMMON_SHARE * near.max()))
+    while first + 1 < len(near) and near[first + 1] > near[first]:
+        first += 1
+    return max(first, 1)
+
+
+def thinnest_solid(lengths: FloatArray, line: int, wall: float) -> int:
+    """Return the least thickness of solid walls.
+
+    Between the lines and the walls there is little of any thickness. Going up from
+    the lines, the bottom of that valley is where strokes become walls.
+
+    Parameters
+    ----------
+    lengths : ndarray of float64
+        From `stroke_lengths`.
+    line : int
+        Thickness of lines, px.
+    wall : float
+        Thickness of most walls, px.
+    """
+    low = start = max(line + 1, int(THINNEST_WALL[0] * wall))
+    chance = LITTLE * lengths.max()
+    for px in range(start, round(THINNEST_WALL[1] * wall) + 1):
+        if lengths[px] < lengths[low]:
+            low = px
+        elif lengths[px] > RISE * lengths[low] + chance:
+            return low + 1
+    return low
+
+
+@dataclass(frozen=True, eq=False)
+class Runs:
+    """Runs of equal pixels down the columns of a mask, in order.
+
+    Parameters
+    ----------
+    column, start, length : ndarray of int64, shape (N,)
+        Column, first row and length, px.
+    value : ndarray of uint8, shape (N,)
+        1 for ink, 0 for paper, 2 between two columns.
+    """
+
+    column: IntArray
+    start: IntArray
+    length: IntArray
+    value: ByteArray
+
+
+def column_runs(mask: ByteArray) -> Runs:
+    """Return the runs down the columns of a mask of shape (H, W)."""
+    height, width = mask.shape
+    padded = np.full((width, height + 2), 2, dtype=np.uint8)
+    padded[:, 1:-1] = mask.T
+    flat = padded.ravel()
+    change = np.flatnonzero(flat[1:] != flat[:-1]) + 1
+    first = change[:-1]
+    column, row = np.divmod(first, height + 2)
+    return Runs(column, row - 1, np.diff(change), flat[first])
+
+
+def level_lines(ink: ByteArray, length_px: float) -> ByteArray:
+    """Return the ink that belongs to long horizontal lines.
+
+    Scanned lines step by a pixel now and then; that does not end them.
+    """
+    thicker = dilated(ink, box(1, 3))
+    return opened(thicker, box(length_px, 1)) & ink
+
+
+def gap_lengths(ink: ByteArray, length_px: float, line_px: int) -> FloatArray:
+    """Return for how long two lines run beside each other at each distance.
+
+    Only lines with more room beyond them than between them count, which treads, tiles
+    and panes have not.
+
+    Parameters
+    ----------
+    ink : ndarray of uint8, shape (h, w)
+        Ink.
+    length_px : float
+        Length from which a line counts, px.
+    line_px : int
+        Thickness of lines, px.
+
+    Returns
+    -------
+    ndarray of float64, shape (THICKEST_PX + 1,)
+        Length for each width of gap, px.
+    """
+    total = np.zeros(THICKEST_PX + 1)
+    for view in (ink, np.ascontiguousarray(ink.T)):
+        runs = column_runs(level_lines(view, length_px))
+        gap = np.flatnonzero((runs.value == 0) & (runs.length <= THICKEST_PX))
+        gap = gap[(gap > 1) & (gap < len(runs.length) - 2)]
+        for side in (-1, 1):
+            gap = gap[runs.value[gap + side] == 1]
+            gap = gap[runs.length[gap + side] <= 3 * line_px]
+            beyond = gap + 2 * side
+            room = runs.length[beyond] >= ROOM * runs.length[gap] + line_px
+            gap = gap[room | (runs.value[beyond] != 0)]
+        total += np.bincount(runs.length[gap], minlength=THICKEST_PX + 1)
+    return total
+
+
+def with_neighbours(lengths: FloatArray) -> FloatArray:
+    """Return the sum of each thickness and the next either way."""
+    padded = np.pad(lengths, 1)
+    return np.asarray(padded[:-2] + padded[1:-1] + padded[2:])
+
+
+def kinds_share(lengths: FloatArray) -> float:
+    """Return the share of the two commonest kinds: buildings have few, chance many."""
+    near = with_neighbours(lengths)
+    first = int(np.argmax(near))
+    both = near[first]
+    near[max(first - 2, 0) : first + 3] = 0.0
+    return float((both + near.max()) / max(lengths.sum(), 1.0))
+
+
+def usual(lengths: FloatArray) -> IntArray:
+    """Return the thicknesses that, with their neighbours, are common."""
+    near = with_neighbours(lengths)
+    common = (near >= USUAL_SHARE * near.max()) & (lengths > near / 4)
+    return np.flatnonzero(common)
+
+
+def measure(ink: ByteArray) -> Measures:
+    """Return the lengths of a drawing.
+
+    Parameters
+    ----------
+    ink : ndarray of uint8, shape (h, w)
+        Its ink.
+    """
+    lengths = stroke_lengths(ink)
+    line = commonest_line(lengths)
+    area = lengths * np.arange(len(lengths))
+    thick = area.copy()
+    thick[: 2 * line + 1] = 0.0
+    hollow = gap_lengths(ink, LONG_SHARE * max(ink.shape), line)
+    hollow[: max(round(0.8 * line), 2)] = 0.0
+    between = hollow * (np.arange(len(hollow)) + 2 * line)
+    if kinds_share(hollow) < KINDS_SHARE:
+        hollow[:] = between[:] = 0.0
+    solid_style = thick.sum() >= max(THICK_SHARE * area.sum(), between.sum())
+    if solid_style:
+        wall = half_way(thick)
+        solid = thinnest_solid(lengths, line, wall)
+        two_styles = with_neighbours(hollow).max() >= BOTH_SHARE * lengths[solid:].sum()
+    gaps: tuple[int, ...] = ()
+    wide = np.arange(len(hollow)) >= 2 * line
+    even = area[round(0.8 * line) : round(1.2 * line) + 1].sum() >= 0.8 * area.sum()
+    hollow_style = (
+        between[wide if even else slice(None)].sum() >= HOLLOW_SHARE * area.sum()
+    )
+    if two_styles if solid_style else hollow_style:
+        gaps = tuple(
+            sorted((int(gap) for gap in usual(hollow)), key=lambda gap: -hollow[gap])
+        )
+    bare = not solid_style and not gaps
+    if bare:
+        wall = half_way(area)
+        solid = max(round(wall / 2), 1)
+    elif not solid_style:
+        wall = half_way(between) + 2 * line
+        solid = round(BLOT * line)
+    return Measures(
+        line=line,
+        solid=solid,
+        wall=max(wall, 1.0),
+        gaps=gaps,
+        thick=tuple(int(px) for px in usual(thick)) if solid_style else (),
+        bare=bare,
+    )
+
+
+def half_way(weights: FloatArray) -> float:
+    """Return the index up to which half the weight lies."""
+    return float(np.searchsorted(np.cumsum(weights), weights.sum() / 2))
