@@ -19,10 +19,14 @@ _FINE_STEP_RAD = np.radians(0.03)
 # An edge changes brightness by this much from pixel to pixel, of 255.
 _EDGE_CONTRAST = 24.0
 _FEWEST_EDGES = 200
-# Rows of edge pixels at the best angle against those at a usual angle.
+# Edge pixels in rows at the best angle against those at a usual angle.
 _CLEAR_PEAK = 1.3
 # The part of the peak whose centre is taken.
 _PEAK_FLOOR = 0.8
+# Blur that hides the steps of oblique lines, px, and how far from the direction of
+# most contrast the lines may then lie.
+_STEPS_PX = 3.0
+_HISTOGRAM_ERROR_RAD = np.radians(2.0)
 
 
 def estimate_tilt(drawing: Drawing) -> float | None:
@@ -46,14 +50,85 @@ def estimate_tilt(drawing: Drawing) -> float | None:
     squared row and column counts is sought, in steps of 0.25 and then 0.03 degrees.
     """
     small = Transform.fit(drawing.shape, _TILT_SIDE_PX).drawing(drawing)
-    level, upright = _edge_points(small.gray)
+    return _sought(small.gray, 0.0, MAX_TILT_RAD, _CLEAR_PEAK)
+
+
+def main_direction(gray: ByteArray) -> float:
+    """Return the direction of most of a drawing's lines, however it is turned.
+
+    Parameters
+    ----------
+    gray : ndarray of uint8, shape (H, W)
+        Brightness or darkness.
+
+    Returns
+    -------
+    float
+        From +x towards +y, modulo a right angle, rad in [-pi/4, pi/4); 0 where there
+        is no line.
+
+    Notes
+    -----
+    A histogram of the directions of contrast gives the angle to about a degree; the
+    search of `estimate_tilt` around it gives the rest.
+    """
+    scale = min(1.0, _TILT_SIDE_PX / max(gray.shape))
+    size = [max(1, round(side * scale)) for side in gray.shape[::-1]]
+    small = cv2.resize(gray, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
+    coarse = direction_peaks(small)
+    if not coarse:
+        return 0.0
+    # One clear histogram peak is enough: the search only makes it finer.
+    fine = _sought(small, coarse[0], _HISTOGRAM_ERROR_RAD, 1.0)
+    best = coarse[0] if fine is None else fine
+    return (best + np.pi / 4) % (np.pi / 2) - np.pi / 4
+
+
+def direction_peaks(gray: ByteArray, least_share: float = 1.0) -> list[float]:
+    """Return the directions in which contrast gathers, the strongest first.
+
+    Parameters
+    ----------
+    gray : ndarray of uint8, shape (H, W)
+        Brightness or darkness.
+    least_share : float, default 1
+        Height, as a share of the highest peak, from which a peak counts.
+
+    Returns
+    -------
+    list of float
+        Modulo a right angle, rad in [-pi/4, pi/4), to about a degree.
+    """
+    smooth = cv2.GaussianBlur(gray, (0, 0), _STEPS_PX)
+    across = cv2.Scharr(smooth, cv2.CV_32F, 1, 0)
+    down = cv2.Scharr(smooth, cv2.CV_32F, 0, 1)
+    strength, angle = cv2.cartToPolar(across, down, angleInDegrees=True)
+    strong = strength > 0.2 * strength.max()
+    if not strong.any():
+        return []
+    bins = (np.asarray(angle)[strong] * 4).astype(np.int64) % 360
+    votes = np.bincount(bins, np.asarray(strength)[strong], 360)
+    near = np.convolve(np.r_[votes[-4:], votes, votes[:4]], np.hanning(9), "valid")
+    hills = near[:360]
+    top = np.maximum.reduce([np.roll(hills, shift) for shift in range(-20, 21)])
+    peaks = np.flatnonzero((hills == top) & (hills >= least_share * hills.max()))
+    peaks = peaks[np.argsort(-hills[peaks], kind="stable")]
+    degrees = (peaks + 0.5) / 4
+    return [float(np.radians((one + 45) % 90 - 45)) for one in degrees]
+
+
+def _sought(
+    gray: ByteArray, about_rad: float, reach_rad: float, clear: float
+) -> float | None:
+    """Return the angle, around one, at which edges gather best in rows and columns."""
+    level, upright = _edge_points(gray, about_rad)
     if len(level) + len(upright) < _FEWEST_EDGES:
         return None
-    n_coarse = round(MAX_TILT_RAD / _COARSE_STEP_RAD)
-    coarse = np.arange(-n_coarse, n_coarse + 1) * _COARSE_STEP_RAD
+    n_coarse = round(reach_rad / _COARSE_STEP_RAD)
+    coarse = about_rad + np.arange(-n_coarse, n_coarse + 1) * _COARSE_STEP_RAD
     gathered = np.array([_gathering(level, upright, angle) for angle in coarse])
     best = coarse[int(np.argmax(gathered))]
-    if gathered.max() < _CLEAR_PEAK * np.median(gathered):
+    if gathered.max() < clear * np.median(gathered):
         return None
     n_fine = round(2.0 * _COARSE_STEP_RAD / _FINE_STEP_RAD)
     fine = best + np.arange(-n_fine, n_fine + 1) * _FINE_STEP_RAD
@@ -63,10 +138,12 @@ def estimate_tilt(drawing: Drawing) -> float | None:
     return float(fine @ weight / weight.sum())
 
 
-def _edge_points(gray: ByteArray) -> tuple[FloatArray, FloatArray]:
-    """Return edge pixels of nearly level and of nearly upright lines, each (K, 2)."""
+def _edge_points(gray: ByteArray, about_rad: float) -> tuple[FloatArray, FloatArray]:
+    """Return edge pixels of lines nearly along and nearly across, each (K, 2)."""
     across = cv2.Sobel(gray, cv2.CV_32F, 1, 0, scale=0.125)
     down = cv2.Sobel(gray, cv2.CV_32F, 0, 1, scale=0.125)
+    cos, sin = np.float32(np.cos(about_rad)), np.float32(np.sin(about_rad))
+    across, down = cos * across + sin * down, cos * down - sin * across
     # Well beyond the largest tilt; text and arcs at other angles stay out.
     slope = np.tan(2.0 * MAX_TILT_RAD)
     level = (np.abs(down) > _EDGE_CONTRAST) & (np.abs(across) < slope * np.abs(down))

@@ -75,10 +75,10 @@ class Strips:
         """Length of each strip along its lines, px."""
         return self.parts.height if self.upright else self.parts.width
 
-    def as_wide_as(self, gap: int) -> BoolArray:
-        """Which strips are as wide as a usual gap; all are for a gap of 0."""
-        width = self.parts.area / np.maximum(self.length, 1)
-        return (np.abs(width - gap) <= 1 + 0.1 * gap) | (gap == 0)
+    @property
+    def width(self) -> FloatArray:
+        """Mean width of each strip, px."""
+        return np.asarray(self.parts.area / np.maximum(self.length, 1))
 
 
 def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
@@ -102,17 +102,14 @@ def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
     found = [s.parts.chosen(_seeds(s, m)) for s in every]
     walls = _with_ends(found, ink, m)
     # Walls that hang on walls that hang on seeds; the commonest kind first.
-    for gap in (*m.gaps, 0) * 3:
+    for kind in [*((gap,) for gap in m.gaps), ()] * 3:
         sure = walls | solid
         if not sure.any():
             break
-        more = [
-            s.parts.chosen(
-                _joined(s, sure, [f | solid for f in found], m) & s.as_wide_as(gap)
-            )
-            for s in every
-        ]
-        found = [a | b for a, b in zip(found, more, strict=True)]
+        firm = [one | solid for one in found]
+        for i, s in enumerate(every):
+            more = _joined(s, sure, firm, m) & (_one_of(s.width, kind) | (not kind))
+            found[i] = found[i] | s.parts.chosen(more)
         walls = _with_ends(found, ink, m)
     return walls | (dilated(walls, box(2 * m.line + 3)) & ink)
 
@@ -133,7 +130,16 @@ def oblique_walls(
 
 
 def _seeds(s: Strips, m: Measures) -> BoolArray:
-    return (s.sure >= SURE_SHARE) & (s.length >= SEED_LENGTH * m.wall)
+    """Which strips are walls by themselves."""
+    return (s.sure >= SURE_SHARE) & _long(s, m) & ~_rare(s, m)
+
+
+def _long(s: Strips, m: Measures) -> BoolArray:
+    return np.asarray(s.length >= SEED_LENGTH * m.wall)
+
+
+def _rare(s: Strips, m: Measures) -> BoolArray:
+    return _one_of(s.width, m.rare) & ~_one_of(s.width, m.gaps)
 
 
 def _joined(
@@ -152,6 +158,7 @@ def _joined(
         else (box(1, across), box(ahead, 1))
     )
     joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall / 2)
+    joined &= ~_rare(s, m) | _long(s, m)
     joined &= _touched(s, dilated(walls, sides)) <= BESIDE_SHARE * s.length
     near = dilated(walls, box(3)) | dilated(found[s.upright], ends)
     near |= dilated(
@@ -212,7 +219,7 @@ def _pairs(
     first, last = first[whole], last[whole]
     top = runs.start[first] + runs.length[first]
     bottom = runs.start[last]
-    fits = _one_of(bottom - top, m.gaps)
+    fits = _one_of(bottom - top, m.gaps + m.rare)
     if lines_between:
         thick = bottom - top + runs.length[first] + runs.length[last]
         fits |= _one_of(thick, m.thick)
@@ -225,7 +232,7 @@ def _pairs(
     return top, bottom, runs.column[first], rooms
 
 
-def _one_of(lengths: IntArray, usual: tuple[int, ...]) -> BoolArray:
+def _one_of(lengths: IntArray | FloatArray, usual: tuple[int, ...]) -> BoolArray:
     """Which lengths are a usual one, as drawn: to a tenth and a pixel."""
     found = np.zeros(len(lengths), dtype=bool)
     for px in usual:

@@ -34,6 +34,14 @@ ROOM = 1.5
 """Least room beyond a hollow wall's faces, in its own gap: treads and tiles have 1."""
 
 HOLLOW_SHARE = 0.2
+"""Area of hollow walls, as a share of all ink, from which a drawing has them."""
+
+ALIKE = 0.8
+"""Share of the ink in strokes of one thickness for all strokes to be alike."""
+
+NARROWEST_GAP = 0.8
+"""Narrowest gap between the faces of a wall, in lines."""
+
 BOTH_SHARE = 0.5
 """Length of hollow walls, as a share of all walls', from which a drawing has them."""
 
@@ -42,6 +50,9 @@ LONG_SHARE = 0.08
 
 KINDS_SHARE = 0.77
 """Share of the two commonest gaps from which gaps are walls' and not chance."""
+
+RARE_SHARE = 0.1
+"""The same for gaps that are a wall's where other walls hold them."""
 
 USUAL_SHARE = 0.3
 """Length of a gap's kind, as a share of the commonest one's, from which it is usual."""
@@ -61,6 +72,8 @@ class Measures:
         Thickness of most of its walls, solid or hollow.
     gaps : tuple of int
         Usual gaps between the faces of hollow walls; none where it has no such walls.
+    rare : tuple of int
+        Gaps that are rare, so that only what hangs on other walls is one.
     thick : tuple of int
         Usual thicknesses of solid walls; none where it has no such walls.
     bare : bool
@@ -71,6 +84,7 @@ class Measures:
     solid: int
     wall: float
     gaps: tuple[int, ...]
+    rare: tuple[int, ...]
     thick: tuple[int, ...]
     bare: bool
 
@@ -217,11 +231,20 @@ def kinds_share(lengths: FloatArray) -> float:
     return float((both + near.max()) / max(lengths.sum(), 1.0))
 
 
-def usual(lengths: FloatArray) -> IntArray:
-    """Return the thicknesses that, with their neighbours, are common."""
+def usual(lengths: FloatArray, share: float) -> tuple[int, ...]:
+    """Return the thicknesses that, with their neighbours, are common; most first.
+
+    Parameters
+    ----------
+    lengths : ndarray of float64
+        Length of each thickness, px.
+    share : float
+        Length from which a thickness is common, as a share of the commonest one's.
+    """
     near = with_neighbours(lengths)
-    common = (near >= USUAL_SHARE * near.max()) & (lengths > near / 4)
-    return np.flatnonzero(common)
+    common = (near >= share * near.max()) & (lengths > near / 4)
+    found = np.flatnonzero(common)
+    return tuple(found[np.argsort(-lengths[found], kind="stable")].tolist())
 
 
 def measure(ink: ByteArray) -> Measures:
@@ -235,41 +258,74 @@ def measure(ink: ByteArray) -> Measures:
     lengths = stroke_lengths(ink)
     line = commonest_line(lengths)
     area = lengths * np.arange(len(lengths))
+    hollow = _likely_gaps(ink, line)
+    between = _common_only(hollow) * (np.arange(len(hollow)) + 2 * line)
     thick = area.copy()
     thick[: 2 * line + 1] = 0.0
-    hollow = gap_lengths(ink, LONG_SHARE * max(ink.shape), line)
-    hollow[: max(round(0.8 * line), 2)] = 0.0
-    between = hollow * (np.arange(len(hollow)) + 2 * line)
-    if kinds_share(hollow) < KINDS_SHARE:
-        hollow[:] = between[:] = 0.0
-    solid_style = thick.sum() >= max(THICK_SHARE * area.sum(), between.sum())
-    if solid_style:
-        wall = half_way(thick)
-        solid = thinnest_solid(lengths, line, wall)
-        two_styles = with_neighbours(hollow).max() >= BOTH_SHARE * lengths[solid:].sum()
-    gaps: tuple[int, ...] = ()
-    wide = np.arange(len(hollow)) >= 2 * line
-    even = area[round(0.8 * line) : round(1.2 * line) + 1].sum() >= 0.8 * area.sum()
-    hollow_style = (
-        between[wide if even else slice(None)].sum() >= HOLLOW_SHARE * area.sum()
-    )
-    if two_styles if solid_style else hollow_style:
-        gaps = tuple(
-            sorted((int(gap) for gap in usual(hollow)), key=lambda gap: -hollow[gap])
-        )
-    bare = not solid_style and not gaps
-    if bare:
-        wall = half_way(area)
-        solid = max(round(wall / 2), 1)
-    elif not solid_style:
+    if thick.sum() >= max(THICK_SHARE * area.sum(), between.sum()):
+        return _of_solid(lengths, thick, hollow, line)
+    if _are_walls(between, area, line):
         wall = half_way(between) + 2 * line
-        solid = round(BLOT * line)
+        return _of(line, round(BLOT * line), wall, hollow)
+    wall = half_way(area)
+    return _of(line, max(round(wall / 2), 1), wall, bare=True)
+
+
+def _common_only(hollow: FloatArray) -> FloatArray:
+    """Return the lengths of usual gaps and their neighbours, zero for all others."""
+    near = np.zeros_like(hollow)
+    near[list(usual(hollow, USUAL_SHARE))] = 1.0
+    return hollow * (with_neighbours(near) > 0)
+
+
+def _likely_gaps(ink: ByteArray, line: int) -> FloatArray:
+    """Return the lengths of gaps, none where they are of too many kinds."""
+    hollow = gap_lengths(ink, LONG_SHARE * max(ink.shape), line)
+    hollow[: max(round(NARROWEST_GAP * line), 2)] = 0.0
+    return hollow if kinds_share(hollow) >= KINDS_SHARE else np.zeros_like(hollow)
+
+
+def _are_walls(between: FloatArray, area: FloatArray, line: int) -> bool:
+    """Whether hollow walls of these areas make a drawing of these strokes.
+
+    Where all strokes are alike they may be walls themselves, and what lies between
+    them narrow rooms; only wide gaps tell.
+    """
+    like = area[round(0.8 * line) : round(1.2 * line) + 1]
+    least = 2 * line if like.sum() >= ALIKE * area.sum() else 0
+    return bool(between[least:].sum() >= HOLLOW_SHARE * area.sum())
+
+
+def _of_solid(
+    lengths: FloatArray, thick: FloatArray, hollow: FloatArray, line: int
+) -> Measures:
+    """Return the measures of a drawing of solid walls, some perhaps hollow."""
+    wall = half_way(thick)
+    solid = thinnest_solid(lengths, line, wall)
+    both = with_neighbours(hollow).max() >= BOTH_SHARE * lengths[solid:].sum()
+    gaps = hollow if both else None
+    return _of(line, solid, wall, gaps, thick=usual(thick, USUAL_SHARE))
+
+
+def _of(
+    line: int,
+    solid: int,
+    wall: float,
+    hollow: FloatArray | None = None,
+    *,
+    thick: tuple[int, ...] = (),
+    bare: bool = False,
+) -> Measures:
+    """Return measures with the gaps of some lengths."""
+    gaps = usual(hollow, USUAL_SHARE) if hollow is not None else ()
+    every = usual(hollow, RARE_SHARE) if hollow is not None else ()
     return Measures(
         line=line,
         solid=solid,
         wall=max(wall, 1.0),
         gaps=gaps,
-        thick=tuple(int(px) for px in usual(thick)) if solid_style else (),
+        rare=tuple(gap for gap in every if gap not in gaps),
+        thick=thick,
         bare=bare,
     )
 
