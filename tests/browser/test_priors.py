@@ -15,7 +15,6 @@ from tests.test_priors_pages import longest_front
 
 pytestmark = pytest.mark.browser
 
-CHOSEN = "text=/^\\(p_wall, p_space\\) = /"
 PICTURE = "[data-testid=stImage] img"
 
 
@@ -34,7 +33,9 @@ def settled(page):
 
 def chosen(page):
     """The pair whose map is on the screen."""
-    text = page.locator(CHOSEN).first.inner_text()
+    # Its title is (p_wall, p_space) = (0.2, 0.9), the names set as mathematics.
+    title = page.locator("strong").filter(has=page.locator(".katex")).first
+    text = title.inner_text()
     p_wall, p_space = re.search(r"\(([\d.]+), ([\d.]+)\)$", text).groups()
     return float(p_wall), float(p_space)
 

@@ -75,7 +75,10 @@ class Workshop:
 
     def upload(self, label, name, content):
         self.page.get_by_label(label).locator("visible=true").first.wait_for()
-        self.page.locator("[data-testid=stFileUploaderDropzoneInput]").set_input_files(
+        # The uploader of the section that was left may be there for a moment.
+        uploader = self.page.locator("[data-testid=stFileUploader]")
+        uploader = uploader.filter(has_text=label).locator("input[type=file]")
+        uploader.set_input_files(
             {"name": name, "mimeType": "application/octet-stream", "buffer": content}
         )
 
