@@ -19,7 +19,7 @@ from occsim import (
 from occsim.building import Building
 from occsim.imaging import load_drawing
 from occsim.priors import Elitism, near_front
-from pages._ui import compute
+from pages._ui import compute, state
 from pages._ui.choices import (
     Drawings,
     Exploring,
@@ -186,7 +186,7 @@ def test_the_path_ends_in_four_files(handover):
 
 def test_the_recommended_pair_goes_to_every_page():
     app = press(open_with(BEST), "Use this pair")
-    run = compute.run(compute.sample("a"), app.session_state["settings"])
+    run = compute.run(compute.sample(state.OPENING), app.session_state["settings"])
     best = guiding_pair(run, app.session_state["settings"])
     assert (setting(app, "p_wall"), setting(app, "p_space")) == best
 

@@ -363,7 +363,7 @@ HOSTILE = {
     ),
     "walls out of bounds": (
         archive_with(told(wall_params={"ink_level": 7})),
-        r"ink_level must lie in \[0, 1\)",
+        r"ink_level must lie in \[0, 0\.95\]",
     ),
     "a blind sensor": (archive_with(told(sensor={"range_px": 0})), "range_px must be"),
     "a strange sensor": (
