@@ -118,10 +118,17 @@ def test_clearance_is_measured_to_the_walls_near_side():
     occupied = np.zeros((9, 4), bool)
     occupied[:, 0] = True
     clearance = clearance_map(World(occupied=occupied))
-    np.testing.assert_allclose(clearance[4], [0.0, 0.5, 1.5, 0.5])
+    np.testing.assert_array_equal(clearance[4], [0.0, 0.5, 1.5, 0.5])
     free = free_space(World(occupied=occupied), 1.5)
     assert free[4].tolist() == [False, False, True, False]
     assert free_space(World(occupied=occupied)).tolist() == (~occupied).tolist()
+
+
+def test_clearance_is_the_root_of_a_whole_number_less_half_a_pixel():
+    """To the last bit, so that one and the same plan gives one and the same tour."""
+    clearance = clearance_map(house())
+    squares = np.rint((clearance + 0.5) ** 2)
+    assert np.array_equal(clearance, np.where(house().occupied, 0, squares**0.5 - 0.5))
 
 
 @given(world=plans(), clearance=st.floats(0, 6))
@@ -506,7 +513,7 @@ def test_two_buildings_are_walked_one_after_the_other():
     inside = inside_building(world)
     assert not world.occupied[touched(tour)].any()
     indoors = inside[pixels(tour)]
-    assert 0 < np.count_nonzero(~indoors) <= 4
+    assert 0 < np.count_nonzero(~indoors) <= 3
     side = tour.poses[indoors, 0] > 130
     assert np.count_nonzero(np.diff(side)) == 1
     assert seen_share(world, tour, sensor, inside) > 0.95

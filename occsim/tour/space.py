@@ -9,11 +9,9 @@ from occsim.world import World
 
 # Inside and outside need no more detail than this, cells along the longer side.
 _CELLS = 400
-# Of a run's cells that have walls on either of two sides, those that must have walls
-# on the one and on the other: a room has some, however wide its windows.
-_WALLED_SHARE = 0.1
-# Of all cells of a run: fewer may be specks in the field.
-_LEAST_OF_RUN = 0.04
+# Of a run's cells, those that must have walls on a side: a room has some, however wide
+# its windows and however far the run leads out through them; fewer may be specks.
+_WALLED_SHARE = 0.04
 # Of the drawing: less than this is a pocket between scraps of wall, no building.
 _LEAST_OF_SHEET = 0.003
 
@@ -89,7 +87,7 @@ def inside_building(world: World) -> BoolArray:
     """
     cell_px = -(-max(world.shape) // _CELLS)
     walls = world.grid(cell_px).share(world.occupied) > 0.0
-    inside = _without_holes(_enclosed(walls), walls)
+    inside = _enclosed(walls)
     if np.count_nonzero(inside) <= _LEAST_OF_SHEET * inside.size:
         return ~world.occupied
     height, width = world.shape
@@ -142,13 +140,5 @@ def _is_walled(stop: BoolArray, one: BoolArray, other: BoolArray) -> BoolArray:
         return np.bincount(run[marked & ~stop], minlength=n_rows * (n_cols + 1))
 
     fewest = np.minimum(count(one), count(other))
-    walled = fewest > _LEAST_OF_RUN * count(~stop)
-    walled &= fewest > _WALLED_SHARE * count(one | other)
+    walled = fewest > _WALLED_SHARE * count(~stop)
     return np.asarray(walled[run] & ~stop)
-
-
-def _without_holes(inside: BoolArray, walls: BoolArray) -> BoolArray:
-    """Return the inside with what lies between it and walls, cut off from the field."""
-    rest = np.pad(~(inside | walls), 1, constant_values=True)
-    _, part = cv2.connectedComponents(rest.astype(np.uint8), connectivity=4)
-    return np.asarray((part[1:-1, 1:-1] != part[0, 0]) & ~walls)
