@@ -88,6 +88,27 @@ ARITHMETIC: tuple[Mutation, ...] = (
         "a cell that was shown is not worth showing again",
     ),
     Mutation(
+        "occsim/tour/space.py",
+        "for _ in range(2):",
+        "for _ in range(1):",
+        ("tests/test_tour.py",),
+        "a yard in view of two windows is outside",
+    ),
+    Mutation(
+        "occsim/tour/plan.py",
+        "np.where(ground.inside, 1.0, _OUTSIDE_COST)",
+        "1.0",
+        ("tests/test_tour.py",),
+        "a way indoors is taken rather than one through windows",
+    ),
+    Mutation(
+        "occsim/tour/plan.py",
+        "np.random.default_rng(0).permutation(nodes[order[first]])",
+        "nodes[order[first]]",
+        ("tests/test_tour.py",),
+        "few readings are spread over the building",
+    ),
+    Mutation(
         "occsim/rays/reach.py",
         "half = min(0.5 * sensor.fov_rad + EDGE_EPS, np.pi)",
         "half = min(sensor.fov_rad + EDGE_EPS, np.pi)",
