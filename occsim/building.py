@@ -17,10 +17,10 @@ from occsim.tour import default_tour, random_poses
 from occsim.trajectory import (
     HeadingMode,
     Trajectory,
+    drop_poses,
     inside_walls,
-    outside,
+    outside_drawing,
     resample,
-    without,
 )
 from occsim.walls import WallParams, detect_walls
 from occsim.world import World, world_from_image
@@ -166,7 +166,7 @@ class Building:
     @cached_property
     def is_outside(self) -> BoolArray:
         """Which poses lie outside the drawing, ndarray of bool of shape (S,)."""
-        return outside(self.trajectory, self.world)
+        return outside_drawing(self.trajectory, self.world)
 
     @cached_property
     def is_inside_walls(self) -> BoolArray:
@@ -191,7 +191,7 @@ class Building:
         TrajectoryError
             Where no pose would remain.
         """
-        return without(self.trajectory, self.is_outside | self.is_inside_walls)
+        return drop_poses(self.trajectory, self.is_outside | self.is_inside_walls)
 
     def transformed(self, transform: Transform) -> "Building":
         """Return the building on its drawing, moved; its walls are found anew.

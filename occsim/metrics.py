@@ -117,7 +117,7 @@ class Scores:
 
     @property
     def accuracy(self) -> float:
-        """Share of cells told rightly; NaN where no cell is scored."""
+        """Share of cells classified correctly; NaN where no cell is scored."""
         right = self.tp + self.tn
         return float(ratio(right, right + self.fp + self.fn))
 

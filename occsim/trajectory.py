@@ -73,7 +73,7 @@ class Trajectory:
         return len(self.poses)
 
 
-def outside(trajectory: Trajectory, world: World) -> BoolArray:
+def outside_drawing(trajectory: Trajectory, world: World) -> BoolArray:
     """Return which poses lie outside the drawing.
 
     Parameters
@@ -105,16 +105,16 @@ def inside_walls(trajectory: Trajectory, world: World) -> BoolArray:
     Returns
     -------
     ndarray of bool, shape (S,)
-        False for poses outside the drawing (see `outside`).
+        False for poses outside the drawing (see `outside_drawing`).
     """
-    off = outside(trajectory, world)
+    off = outside_drawing(trajectory, world)
     cols, rows = np.floor(
         np.where(off[:, None], 0.0, trajectory.poses[:, :2])
     ).T.astype(np.int64)
     return np.asarray(world.occupied[rows, cols] & ~off)
 
 
-def without(trajectory: Trajectory, drop: BoolArray) -> Trajectory:
+def drop_poses(trajectory: Trajectory, drop: BoolArray) -> Trajectory:
     """Return the trajectory without the marked poses.
 
     Parameters
@@ -247,7 +247,7 @@ def _positions_along(
 ) -> tuple[FloatArray, BoolArray]:
     """Return the lengths of path at which to stand, and which of them are stops."""
     regular = np.arange(0.0, total_px, step_px)
-    # A regular position that rounding puts a hair from a stop is that stop.
+    # A regular position within rounding of a stop is that stop.
     after = np.searchsorted(stops_px, regular)
     beyond = np.append(stops_px, np.inf)[after] - regular
     before = regular - np.insert(stops_px, 0, -np.inf)[after]

@@ -80,9 +80,9 @@ def dump_project(project: Project) -> bytes:
         A zip archive; the same project gives the same bytes.
     """
     building = project.building
-    told = _description(building, project.settings)
+    document = _description(building, project.settings)
     files = {
-        JSON_NAME: json.dumps(told, indent=1).encode("ascii"),
+        JSON_NAME: json.dumps(document, indent=1).encode("ascii"),
         DRAWING: drawing_png(building.drawing),
         FOUND: mask_png(building.walls_found),
         CORRECTIONS: _corrections_png(building.corrections),
@@ -168,20 +168,20 @@ def load_project(source: bytes | str | Path, *, name: str | None = None) -> Proj
 
 
 def _project(files: Mapping[str, bytes]) -> Project:
-    told = read_values(files[JSON_NAME])
+    values = read_values(files[JSON_NAME])
     check_images(files)
     trajectory = load_trajectory(files[TRAJECTORY_NAME], name=TRAJECTORY_NAME)
     found = _mask(files, FOUND)
     building = Building(
-        drawing=_image(files, DRAWING, told.drawing_name),
+        drawing=_image(files, DRAWING, values.drawing_name),
         trajectory=trajectory,
         found=found,
-        corrections=_corrections(files, found, told.version),
+        corrections=_corrections(files, found, values.version),
         truth=_mask(files, TRUTH) if TRUTH in files else None,
-        tour=trajectory if told.is_planned else None,
-        **told.parts,
+        tour=trajectory if values.is_planned else None,
+        **values.parts,
     )
-    return Project(building=building, settings=told.settings)
+    return Project(building=building, settings=values.settings)
 
 
 def _image(files: Mapping[str, bytes], name: str, title: str) -> Drawing:

@@ -29,7 +29,7 @@ MAX_LENGTH_PX = 100_000.0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Told:
+class ProjectValues:
     """What stands in the JSON, checked.
 
     ``parts`` are arguments of `occsim.Building`; ``is_planned`` says whether the
@@ -43,7 +43,7 @@ class Told:
     settings: Mapping[str, str]
 
 
-def read_values(content: bytes) -> Told:
+def read_values(content: bytes) -> ProjectValues:
     """Return what stands in the JSON.
 
     Raises
@@ -51,24 +51,24 @@ def read_values(content: bytes) -> Told:
     OccsimError
         Where it is no JSON, or a value is of another type or out of its bounds.
     """
-    told = _json(content)
-    _check_version(told)
-    door_px = _length(told, "door_px", MAX_LENGTH_PX)
-    return Told(
-        version=told["version"],
-        drawing_name=_text(told, "name"),
-        is_planned=told.get("is_planned") is True,
+    document = _json(content)
+    _check_version(document)
+    door_px = _length(document, "door_px", MAX_LENGTH_PX)
+    return ProjectValues(
+        version=document["version"],
+        drawing_name=_text(document, "name"),
+        is_planned=document.get("is_planned") is True,
         parts={
-            "wall_params": _wall_params(told.get("wall_params")),
-            "sensor": _sensor(told.get("sensor"), door_px),
-            "sketch": _sketch(told.get("sketch")),
+            "wall_params": _wall_params(document.get("wall_params")),
+            "sensor": _sensor(document.get("sensor"), door_px),
+            "sketch": _sketch(document.get("sketch")),
             "door_px": door_px,
-            "metres_per_px": _length(told, "metres_per_px", MAX_METRES_PER_PX),
-            "name": _text(told, "short_name"),
-            "title": _text(told, "title"),
-            "about": _text(told, "about"),
+            "metres_per_px": _length(document, "metres_per_px", MAX_METRES_PER_PX),
+            "name": _text(document, "short_name"),
+            "title": _text(document, "title"),
+            "about": _text(document, "about"),
         },
-        settings=_settings(told.get("settings")),
+        settings=_settings(document.get("settings")),
     )
 
 
@@ -80,16 +80,16 @@ def written_text(text: str) -> str:
 def _json(content: bytes) -> Mapping[str, Any]:
     """Return the object that the JSON holds."""
     try:
-        told = json.loads(content)
+        document = json.loads(content)
     except (ValueError, RecursionError):
         raise ProjectError(f"{JSON_NAME} must be JSON; it is not") from None
-    if not isinstance(told, dict):
+    if not isinstance(document, dict):
         raise ProjectError(f"{JSON_NAME} must hold an object; it does not")
-    return told
+    return document
 
 
-def _check_version(told: Mapping[str, Any]) -> None:
-    kind, version = told.get("format"), told.get("version")
+def _check_version(document: Mapping[str, Any]) -> None:
+    kind, version = document.get("format"), document.get("version")
     if kind != FORMAT:
         raise ProjectError(f"its format must be {FORMAT!r}; got {shown(kind)}")
     if type(version) is not int or version not in VERSIONS:
@@ -107,8 +107,8 @@ def _is_text(value: object) -> bool:
     return not any("\ud800" <= character <= "\udfff" for character in value)
 
 
-def _text(told: Mapping[str, Any], key: str) -> str:
-    value = told.get(key, "")
+def _text(document: Mapping[str, Any], key: str) -> str:
+    value = document.get(key, "")
     if not _is_text(value):
         raise ProjectError(
             f"{key} must be text of at most {MAX_TEXT} whole characters; "
@@ -117,8 +117,8 @@ def _text(told: Mapping[str, Any], key: str) -> str:
     return str(value)
 
 
-def _length(told: Mapping[str, Any], key: str, highest: float) -> float | None:
-    value = told.get(key)
+def _length(document: Mapping[str, Any], key: str, highest: float) -> float | None:
+    value = document.get(key)
     if value is None:
         return None
     if not _is_number(value) or not 0 < value <= highest:
