@@ -132,8 +132,7 @@ class Decoder:
         return message
 
     def _ran_out_of_time(self) -> bool:
-        """Return whether the system ended the process at its limit of processor
-        time."""
+        """Return whether the system's limit of processor time ended the process."""
         with contextlib.suppress(subprocess.TimeoutExpired):
             return self._process.wait(timeout=1.0) == -OUT_OF_TIME
         return False

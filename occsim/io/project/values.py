@@ -14,10 +14,10 @@ from occsim.walls import WallParams
 
 FORMAT = "occsim-project"
 VERSION = 2
-"""Of the layout that the package describes."""
+"""Version of the layout that the package describes."""
 
 VERSIONS = (1, VERSION)
-"""Those that are read."""
+"""Versions that can be read."""
 
 MAX_TEXT = 2000
 """Longest title or setting, characters."""
@@ -30,7 +30,7 @@ MAX_LENGTH_PX = 100_000.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ProjectValues:
-    """What stands in the JSON, checked.
+    """The content of the JSON, checked.
 
     ``parts`` are arguments of `occsim.Building`; ``is_planned`` says whether the
     trajectory is the building's tour.
@@ -44,12 +44,12 @@ class ProjectValues:
 
 
 def read_values(content: bytes) -> ProjectValues:
-    """Return what stands in the JSON.
+    """Return the content of the JSON.
 
     Raises
     ------
     OccsimError
-        Where it is no JSON, or a value is of another type or out of its bounds.
+        Where it is not JSON, or a value is of another type or out of its bounds.
     """
     document = _json(content)
     _check_version(document)
@@ -73,7 +73,7 @@ def read_values(content: bytes) -> ProjectValues:
 
 
 def written_text(text: str) -> str:
-    """Return a text as it can be read back: no half of a character, not too long."""
+    """Return a text that can be read back: valid Unicode and not too long."""
     return text.encode("utf-8", "replace").decode()[:MAX_TEXT]
 
 
@@ -100,10 +100,10 @@ def _check_version(document: Mapping[str, Any]) -> None:
 
 
 def _is_text(value: object) -> bool:
-    """Whether a value is text that every encoder takes, and not too long."""
+    """Whether a value is text, can be encoded, and is not too long."""
     if not isinstance(value, str) or len(value) > MAX_TEXT:
         return False
-    # JSON may hold one half of a character beyond 16 bits.
+    # JSON may hold a lone surrogate.
     return not any("\ud800" <= character <= "\udfff" for character in value)
 
 
@@ -156,7 +156,7 @@ def _is_corner(value: object) -> bool:
 
 
 def _sensor(value: object, door_px: float | None) -> Sensor:
-    """Return the proposed sensor; of an old file, the one that the door proposes."""
+    """Return the proposed sensor; for an old file, the one that fits the door."""
     if value is None:
         return Sensor() if door_px is None else Sensor(range_px=door_px)
     checked = _parameters(value, "sensor", Sensor)
@@ -171,7 +171,7 @@ def _wall_params(value: object) -> WallParams:
 
 
 def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
-    """Return values by the names and types of a class; it checks bounds itself."""
+    """Return values by the names and types of a class, which checks their bounds."""
     kinds = {item.name: item.type for item in fields(kind)}
     if not isinstance(value, dict) or not set(value) <= set(kinds):
         raise ProjectError(f"{what} must hold only {', '.join(kinds)}")
@@ -190,7 +190,7 @@ def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
 
 
 def _settings(value: object) -> Mapping[str, str]:
-    """Return the application's settings; it checks itself what they mean."""
+    """Return the application's settings; the application checks their meaning."""
     if (
         not isinstance(value, dict)
         or len(value) > MAX_SETTINGS
