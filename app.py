@@ -14,9 +14,9 @@ with shell.page("app.py"):
     st.markdown(
         "A robot with a range sensor drives through a building and records, cell by "
         "cell, how probable it is that the cell is free. If the architect's drawing is "
-        "known, its walls can be what the map starts from: its *prior*. Here you can "
-        "watch such maps grow, change the prior while they do, and find out which "
-        "priors help and which mislead."
+        "known, the map can start from its walls: they are its *prior*. Here you "
+        "can watch such maps grow, change the prior while they do, and find out "
+        "which priors help and which mislead."
     )
     with st.container(key="home"):
         links, picture = st.columns([2, 3], gap="large")
@@ -35,9 +35,9 @@ with shell.page("app.py"):
         )
         map_player(replay, HOME_REPLAY, key="home_player")
         st.caption(
-            f"The robot maps “{sample.title}”. White is free, black is occupied. What "
-            "it has not looked at yet shows what the drawing says: light grey for "
-            "space, dark grey for walls. Poses are known exactly, the sensor has no "
-            "noise, and the world is flat."
+            f"The robot maps “{sample.title}”. White is free, black is occupied. "
+            "Cells that it has not seen yet show the drawing: light grey for space, "
+            "dark grey for walls. Poses are known exactly, the sensor has no noise, "
+            "and the world is flat."
         )
     st.caption(words.SOURCE)

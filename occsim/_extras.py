@@ -6,14 +6,14 @@ from contextlib import contextmanager
 
 @contextmanager
 def needs_extra(extra: str, what: str) -> Iterator[None]:
-    """Say how to install what an import inside the block does not find.
+    """Explain how to install a package whose import inside the block fails.
 
     Parameters
     ----------
     extra : str
         Extra of `occsim` that brings the package.
     what : str
-        What needs it.
+        What the package is needed for.
 
     Raises
     ------

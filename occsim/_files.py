@@ -10,12 +10,12 @@ LONGEST_NAME = 100
 
 
 def printable(name: str) -> str:
-    r"""Return a file's name as it can be shown, in one line of text.
+    r"""Return a file's name as one line of valid text, to be shown in messages.
 
     Parameters
     ----------
     name : str
-        May hold line breaks, or bytes that are no text, which no message can carry.
+        May hold line breaks, or bytes that are not text.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def read_source(
     source : bytes, str or Path
         The file's content, or where it is.
     what : str
-        The name that content without a file goes by.
+        Name for content that comes without a file.
     needed : str
         What the file should be, for the messages.
     max_bytes : int

@@ -17,16 +17,16 @@ from occsim.tour import default_tour, random_poses
 from occsim.trajectory import (
     HeadingMode,
     Trajectory,
+    drop_poses,
     inside_walls,
-    outside,
+    outside_drawing,
     resample,
-    without,
 )
 from occsim.walls import WallParams, detect_walls
 from occsim.world import World, world_from_image
 
 TOUR_READINGS = 1000
-"""Most readings of the first tour of a drawing: a replay of more is long to watch."""
+"""Most readings in a drawing's first tour: a longer replay takes long to watch."""
 
 DOOR_WIDTH_M = 0.9
 """Clear width of a usual door, m: the scale of a drawing that states none."""
@@ -45,23 +45,23 @@ class Building:
     trajectory : Trajectory
         Where the readings are taken.
     found : ndarray of bool, shape (H, W), optional
-        Walls found in the drawing. By default they are looked for with `wall_params`
-        when they are first needed.
+        Walls found in the drawing. By default they are detected with `wall_params` on
+        first use.
     corrections : Corrections, optional
-        What was corrected in them by hand; none by default.
+        Corrections made to them by hand; none by default.
     truth : ndarray of bool, shape (H, W), optional
         Ground truth, in register with the drawing: structure only, doors open. Without
         one the corrected walls serve as the world.
     wall_params : WallParams
         Settings of the wall detection.
     sensor : Sensor
-        The one proposed for this building: its range is the length of a door.
+        The sensor proposed for this building: its range is the length of a door.
     tour : Trajectory, optional
-        The tour that was planned for the building, if one was. As long as it is the
-        trajectory, `transformed` plans another.
+        The tour planned for the building, if any. While the trajectory is this tour,
+        `transformed` plans a new one.
     sketch : tuple of (float, float, bool)
         Sketch of a trajectory: x, y of its corners, px, and whether the corner is a
-        waypoint set by hand or one of the many of a free line. May be empty.
+        waypoint set by hand or a point of a freehand line. May be empty.
     door_px : float, optional
         Length of a door leaf, px, where it is known.
     metres_per_px : float, optional
@@ -76,14 +76,14 @@ class Building:
     Raises
     ------
     DrawingError
-        Where a mask is not one of bool or has another size than the drawing.
+        Where a mask is not bool or differs in size from the drawing.
     ParameterError
         Where a length is not above 0 and finite.
 
     Notes
     -----
-    What is computed is kept with the object, and lost by `dataclasses.replace`: who
-    edits a building step by step gives it the walls found.
+    Computed values are cached on the object and dropped by `dataclasses.replace`. To
+    avoid a new detection after an edit, pass the walls as `found`.
 
     Examples
     --------
@@ -95,7 +95,7 @@ class Building:
     drawing: Drawing
     trajectory: Trajectory
     found: BoolArray | None = None
-    # Given an empty overlay below, which needs the drawing's size.
+    # None becomes an empty overlay below: its size is the drawing's.
     corrections: Corrections = None  # type: ignore[assignment]
     truth: BoolArray | None = None
     wall_params: WallParams = WallParams()
@@ -166,7 +166,7 @@ class Building:
     @cached_property
     def is_outside(self) -> BoolArray:
         """Which poses lie outside the drawing, ndarray of bool of shape (S,)."""
-        return outside(self.trajectory, self.world)
+        return outside_drawing(self.trajectory, self.world)
 
     @cached_property
     def is_inside_walls(self) -> BoolArray:
@@ -191,10 +191,10 @@ class Building:
         TrajectoryError
             Where no pose would remain.
         """
-        return without(self.trajectory, self.is_outside | self.is_inside_walls)
+        return drop_poses(self.trajectory, self.is_outside | self.is_inside_walls)
 
     def transformed(self, transform: Transform) -> "Building":
-        """Return the building on its drawing, moved; its walls are found anew.
+        """Return the building with its drawing transformed; walls are detected again.
 
         Parameters
         ----------
@@ -204,8 +204,8 @@ class Building:
         Returns
         -------
         Building
-            All that was made on the drawing moves along; poses may come to lie
-            outside. A tour that was planned is planned anew.
+            Masks, poses and sketch are transformed too; poses may end up outside. A
+            planned tour is planned again.
 
         Raises
         ------
@@ -280,7 +280,7 @@ def building_from_drawing(
     Returns
     -------
     Building
-        It says about itself from what size it was scaled down.
+        Its `about` states the size before scaling down.
 
     Raises
     ------
@@ -319,8 +319,8 @@ def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:
     Returns
     -------
     ndarray of bool
-        No wall of a larger image is lost. Of the image's own size where that does not
-        fit, to be refused by `Building`.
+        Scaling down keeps every wall. An image of any other size is returned at its own
+        size, which `Building` refuses.
     """
     fit = Transform.fit(image.shape, max(shape))
     mask = world_from_image(image).occupied
@@ -341,7 +341,7 @@ def random_trajectory(world: World, n: int, seed: int) -> Trajectory:
     n : int
         Poses, 1 or more.
     seed : int
-        Decides, 0 or more.
+        Seed of the random choice, 0 or more.
 
     Returns
     -------

@@ -30,10 +30,10 @@ from occsim.study.published import SOURCE_CELLS_PX
 PROG = "occsim"
 
 _CHOICES: tuple[tuple[str, Enum, str], ...] = (
-    # The study repeats the source, which took the prior off at every reading.
+    # The study repeats the source, which subtracted the prior at every reading.
     ("--rule", UpdateRule.SUBTRACT_PRIOR, "how a reading enters the map"),
     ("--region", Region.EXPLORED, "which cells are scored"),
-    ("--behind-hit", BehindHit.OCCUPIED, "what is said of pixels behind a wall"),
+    ("--behind-hit", BehindHit.OCCUPIED, "what a reading says of pixels behind a wall"),
 )
 """Options of the study that take a member of an enum: name, default, help."""
 
@@ -49,23 +49,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0, 2 after a sentence on bad input, or as a shell has it for a
-        command that was stopped or whose reader went away.
+        Exit status: 0; 2 after a message on bad input; 128 plus the signal's number for
+        a command that was interrupted or whose output pipe was closed.
     """
     options = _parser().parse_args(arguments)
     try:
         options.run(options)
     except BrokenPipeError:
-        # The reader closed the pipe (``| head``): no error. What Python still holds
-        # back must go somewhere at exit, or it complains.
+        # The reader closed the pipe (``| head``): no error. Python flushes its buffer
+        # at exit; without a valid file it would print an error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 128 + 13  # SIGPIPE, a name that Windows lacks
+        return 128 + 13  # SIGPIPE, which Windows does not define
     except OccsimError as error:
         return _refuse(str(error))
     except OSError as error:
         return _refuse(f"{error.filename} cannot be used ({error.strerror})")
     except KeyboardInterrupt:
-        print("\nStopped; the same command goes on from here.", file=sys.stderr)
+        print("\nStopped; run the same command again to continue.", file=sys.stderr)
         return 130
     return 0
 

@@ -72,7 +72,7 @@ class Corrections:
         Parameters
         ----------
         added, erased : ndarray of bool, shape (H, W)
-            Pixels that are wall, and pixels that are none, whatever the mask says.
+            Pixels that are wall, and pixels that are not, whatever the mask says.
 
         Returns
         -------
@@ -178,8 +178,8 @@ class Corrections:
         Returns
         -------
         Corrections
-            Where scaling down brings an added and an erased pixel into one, it is
-            added: no wall is lost.
+            Where scaling down merges an added and an erased pixel, the result is added,
+            so that no wall is lost.
 
         Raises
         ------
@@ -190,7 +190,7 @@ class Corrections:
         return Corrections.from_masks(added, erased & ~added)
 
     def with_tiles(self, tiles: bytes) -> "Corrections":
-        """Return the corrections with some tiles replaced; nothing is trusted.
+        """Return the corrections with some tiles replaced; all bytes are checked.
 
         Parameters
         ----------
@@ -207,7 +207,7 @@ class Corrections:
         Raises
         ------
         ParameterError
-            Where the bytes are no such tiles.
+            Where the bytes do not hold such tiles.
         """
         n_rows, n_cols = (-(-side // TILE_PX) for side in self.shape)
         n_head = -(-n_rows * n_cols // 8)
@@ -280,7 +280,7 @@ def unpack_mask(packed: bytes, shape: tuple[int, ...]) -> BoolArray:
 
 
 def _inflated(packed: bytes, most: int) -> ByteArray:
-    """Return what zlib data holds; it is refused before more than `most` is unpacked.
+    """Unpack zlib data; refuse it before more than `most` bytes are unpacked.
 
     Raises
     ------
@@ -288,7 +288,7 @@ def _inflated(packed: bytes, most: int) -> ByteArray:
     """
     stream = zlib.decompressobj()
     try:
-        # One byte more than allowed is enough to see that there is too much.
+        # One byte more than allowed shows that there is too much.
         content = stream.decompress(packed, most + 1)
     except zlib.error:
         raise ParameterError("packed pixels must be zlib data; these are not") from None

@@ -1,6 +1,6 @@
 """The few errors that the library raises on bad input, and the checks they share.
 
-What is promised of every public function:
+Every public function promises:
 
 - Wrong *values* (a share of 1.4, NaN in an array, sizes that do not match, a choice
   that does not exist) and wrong *files* raise an `OccsimError`.
@@ -71,7 +71,7 @@ def choice(name: str, value: object, kind: type[_Choice]) -> _Choice:
 
 
 def expect(name: str, value: object, *kinds: type) -> None:
-    """Refuse a whole argument of another type.
+    """Refuse an argument of another type.
 
     Parameters
     ----------
@@ -95,15 +95,15 @@ def expect(name: str, value: object, *kinds: type) -> None:
 def bool_array(
     name: str, values: npt.ArrayLike, shape: tuple[int, ...] | None = None
 ) -> npt.NDArray[np.bool_]:
-    """Return truth values as an array, once it is known to be that.
+    """Check truth values and return them as an array.
 
     Parameters
     ----------
     name : str
         What to call the values in a message.
     values : array_like of bool
-        A mask of pixels or of cells. Numbers are refused: in a grey image, white is
-        not zero and would pass for wall.
+        A mask of pixels or of cells. Numbers are refused: in a grey image, white is not
+        zero and would count as wall.
     shape : tuple of int, optional
         The shape that the array must have.
 
@@ -172,7 +172,7 @@ def shared_shape(**arrays: npt.NDArray[np.generic]) -> tuple[int, ...]:
 
 
 def shown(value: object) -> str:
-    """Return a value as a message shows it: on one line, cut where it is long."""
+    """Return a value as a message shows it: on one line, shortened if long."""
     try:
         text = " ".join(repr(value).split())
     except ValueError:  # thousands of digits
@@ -196,13 +196,13 @@ def _type_of(value: object) -> str:
 def real_number(name: str, value: object) -> float:
     """Return a scalar as a float of full precision.
 
-    A float32 would draw everything computed from it down to seven digits, in which
-    the exact ties between a prior and a reading are lost.
+    A float32 would limit everything computed from it to seven digits, and exact ties
+    between a prior and a reading would be lost.
 
     Raises
     ------
     ParameterError
-        Where the value is no real number, or one beyond all floats.
+        Where the value is not a real number, or too large for a float.
     """
     if not isinstance(value, Real):
         raise ParameterError(f"{name} must be a number; got {shown(value)}")
@@ -218,7 +218,7 @@ def whole_number(name: str, value: object, least: int, most: int) -> int:
     Raises
     ------
     ParameterError
-        Where the value is no whole number, or lies outside the bounds.
+        Where the value is not a whole number, or lies outside the bounds.
     """
     number = None if isinstance(value, bool) else value
     if isinstance(number, (int, np.integer)) and least <= number <= most:

@@ -31,11 +31,11 @@ from occsim.world import World
 COUNTERS_AT_ONCE = 1 << 19
 FACES_AT_ONCE = 1 << 18
 READINGS_AT_ONCE = 1 << 9
-"""Readings are taken in batches of so many cells, faces and readings: work that stays
-in the processor's cache is faster, and memory does not grow with the trajectory."""
+"""Limits of a batch, in cells, faces and readings: work that stays in the processor's
+cache is faster, and memory does not grow with the trajectory."""
 
 MANY_FACES = 100
-"""Faces in view of a reading from which on it pays to look for hidden ones first."""
+"""From this many faces in view of a reading, removing hidden ones first saves time."""
 
 
 def collect_evidence(
@@ -81,7 +81,7 @@ def collect_evidence(
     Exact for every pixel: a pixel counts as if its own ray, from the robot through its
     centre, had been walked.
 
-    - A ray is stopped by the first wall pixel whose square it touches, be it only at a
+    - A ray is stopped by the first wall pixel whose square it touches, even at a single
       corner: a diagonal line of pixels is closed.
     - The sides of the cone and its reach belong to the field of view.
     - A robot in a wall pixel meets the wall at distance 0 on all bearings; one that
@@ -225,7 +225,7 @@ _faces: WeakKeyDictionary[World, WallFaces] = WeakKeyDictionary()
 
 
 def _faces_of(world: World) -> WallFaces:
-    # Worlds never change: one that is asked pose by pose keeps its faces.
+    # Worlds never change, so the faces are cached for calls with one pose each.
     faces = _faces.get(world)
     if faces is None:
         faces = _faces[world] = wall_faces(world.occupied)

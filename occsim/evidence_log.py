@@ -1,4 +1,4 @@
-"""What readings said, kept: a log of them all, or only their totals by cell."""
+"""Stored evidence: a log of all readings, or only the totals of each cell."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -55,7 +55,7 @@ class EvidenceTotals(ShortRepr):
         _keep(self, grid=self.grid, sums=sums, counts=counts)
 
     def totals(self, n_readings: int | None = None) -> tuple[FloatArray, IntArray]:
-        """Return `sums` and `counts`; no other `n_readings` than None is known."""
+        """Return `sums` and `counts`; `n_readings` must be None."""
         if n_readings is not None:
             raise ParameterError(
                 f"totals are those of all readings; got n_readings={n_readings!r}"
@@ -82,7 +82,7 @@ class EvidenceLog(ShortRepr):
     Raises
     ------
     TypeError
-        Where an array holds something else than such numbers.
+        Where an array holds values of another type.
     ParameterError
         Where the arrays do not fit one another, a cell lies outside the grid or stands
         twice in a reading, or log-odds are not finite.
@@ -114,7 +114,7 @@ class EvidenceLog(ShortRepr):
     def known_sound(
         cls, grid: Grid, indptr: IntArray, cell: CellArray, log_odds: FloatArray
     ) -> Self:
-        """Return a log of our own making: checks would cost a tenth of making it."""
+        """Return a log unchecked: checks would add a tenth to the computing time."""
         log = object.__new__(cls)
         _keep(log, grid=grid, indptr=indptr, cell=cell, log_odds=log_odds)
         return log
@@ -174,16 +174,16 @@ class EvidenceLog(ShortRepr):
 
 
 Evidence = EvidenceLog | EvidenceTotals
-"""What serves where only totals are needed."""
+"""Accepted where only totals are needed."""
 
 
 def require_evidence(evidence: object) -> None:
-    """Refuse what is neither a log nor totals, with a `TypeError`."""
+    """Raise a `TypeError` for anything but a log or totals."""
     expect("evidence", evidence, EvidenceLog, EvidenceTotals)
 
 
 def _keep(owner: object, **arrays: object) -> None:
-    # Totals are remembered: what they were made of must not change under them.
+    # Totals are cached, so the arrays that they were computed from must not change.
     for array in arrays.values():
         if isinstance(array, np.ndarray):
             array.setflags(write=False)

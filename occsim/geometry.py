@@ -13,7 +13,7 @@ import numpy.typing as npt
 from occsim._types import FloatArray
 
 CARDINAL_HEADINGS_RAD = (0.0, 0.5 * np.pi, np.pi, 1.5 * np.pi)
-"""Right, down, left, up: the four headings of the source (its 3 pi/4 read 3 pi/2)."""
+"""Right, down, left, up: the source's headings, its 3 pi/4 corrected to 3 pi/2."""
 
 
 def wrap_angle(angle_rad: npt.ArrayLike) -> FloatArray:
@@ -37,7 +37,7 @@ def wrap_angle(angle_rad: npt.ArrayLike) -> FloatArray:
     """
     angle = np.asarray(angle_rad, dtype=np.float64)
     wrapped = np.mod(angle + np.pi, 2.0 * np.pi) - np.pi
-    # What lies within an ulp below -pi comes out as pi itself.
+    # An angle within an ulp below -pi is rounded to pi itself.
     return np.asarray(np.where(wrapped >= np.pi, -np.pi, wrapped), dtype=np.float64)
 
 

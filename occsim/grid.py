@@ -1,4 +1,4 @@
-"""The grid: pixels of a drawing gathered into square cells."""
+"""The grid: pixels of a drawing grouped into square cells."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.errors import ParameterError, bool_array, expect, whole_number
 
 MAX_SIZE_PX = 2**31 - 1
-"""Largest side of an image or a cell, px: what the array library counts with."""
+"""Largest side of an image or a cell, px: the largest int32."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,7 +65,7 @@ class Grid:
         return self.n_rows * self.n_cols
 
     def pixels_per_cell(self) -> IntArray:
-        """Return how many pixels each cell really has.
+        """Return how many pixels of the image each cell contains.
 
         Returns
         -------
@@ -89,7 +89,7 @@ class Grid:
         Returns
         -------
         ndarray of float64, shape (R, C)
-            In [0, 1]; partial cells are shares of the pixels they really have.
+            In [0, 1]; for a partial cell, the share of the pixels that it contains.
 
         Raises
         ------
@@ -128,7 +128,7 @@ class Grid:
 
 
 def cells_of(name: str, cells: npt.ArrayLike, grid: Grid) -> BoolArray:
-    """Return one truth value a cell, once it is known to be that.
+    """Check truth values, one for each cell, and return them as an array.
 
     Parameters
     ----------
@@ -153,12 +153,12 @@ def cells_of(name: str, cells: npt.ArrayLike, grid: Grid) -> BoolArray:
 
 
 def same_grid(**grids: Grid) -> Grid:
-    """Return the grid that several things share.
+    """Return the grid that several objects share.
 
     Parameters
     ----------
     **grids : Grid
-        The grid of each, by the name of the thing.
+        The grid of each object, by its name.
 
     Returns
     -------

@@ -23,11 +23,11 @@ class UpdateRule(Enum):
     PRIOR_ONCE = "prior_once"
     """The prior enters once, at the start; each reading adds its log-odds. This is
     Bayes' rule for these readings: their 0.9 and 0.1 were set for a cell about which
-    nothing is known, so there is no prior in them to take off."""
+    nothing is known, so they contain no prior to subtract."""
     SUBTRACT_PRIOR = "subtract_prior"
     """Each reading adds its log-odds less the cell's prior: Thrun, Burgard and Fox,
     Table 9.1, with the cell's own prior as l_0. The source, as we reconstruct it: it
-    prints no recursion. From the second reading on a cell is pushed away from its
+    prints no recursion. From the second reading on, it pushes a cell away from its
     prior."""
 
 
@@ -42,7 +42,7 @@ class OccupancyMap(ShortRepr):
     log_odds : ndarray of float64, shape (R, C)
         Log-odds of free against occupied, nats.
     n_updates : ndarray of int64, shape (R, C)
-        Readings that updated each cell; 0 where only the prior speaks.
+        Readings that updated each cell; 0 where only the prior counts.
     """
 
     grid: Grid
@@ -56,7 +56,7 @@ class OccupancyMap(ShortRepr):
 
 
 def prior_weight(n_updates: npt.ArrayLike, rule: UpdateRule) -> FloatArray:
-    """Return how many times the prior's log-odds stand in the map's.
+    """Return how many times the prior's log-odds count in the map's.
 
     Parameters
     ----------
@@ -98,13 +98,13 @@ def fuse(
     Parameters
     ----------
     evidence : EvidenceLog or EvidenceTotals
-        What S readings said.
+        The S readings.
     prior_map : PriorMap
         The prior on the same grid.
     rule : UpdateRule, default UpdateRule.PRIOR_ONCE
         How a reading enters the map.
     n_readings : int, optional
-        Use only the first ones, 0 to S; all by default. Totals know only all.
+        Use only the first ones, 0 to S; all by default. Totals allow only all.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Scores: how well a map tells wall from space, at its end and at every step.
+"""Scores: how well a map separates wall from space, at its end and at every step.
 
 Positive means wall. A cell is declared wall where :func:`occsim.logodds.is_occupied`
 says so: ties are not. A measure that is undefined is NaN.
@@ -77,7 +77,7 @@ def f_beta_of(
 
 @dataclass(frozen=True, slots=True)
 class Scores:
-    """Counts of cells right and wrong, and the measures made of them.
+    """Counts of correct and wrong cells, and the measures computed from them.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ class Scores:
 
     @property
     def accuracy(self) -> float:
-        """Share of cells told rightly; NaN where no cell is scored."""
+        """Share of cells classified correctly; NaN where no cell is scored."""
         right = self.tp + self.tn
         return float(ratio(right, right + self.fp + self.fn))
 
@@ -254,8 +254,8 @@ def scores_by_reading(
     Parameters
     ----------
     evidence : EvidenceLog or iterable of EvidenceLog
-        What S readings said, whole or in parts, as `stream_evidence` yields them for
-        logs that would not fit into memory.
+        The S readings, whole or in parts, as `stream_evidence` yields them for logs
+        that would not fit into memory.
     prior_map : PriorMap
         The prior on the same grid.
     truth : ndarray of bool, shape (R, C)
@@ -272,7 +272,8 @@ def scores_by_reading(
     Raises
     ------
     TypeError
-        Where an argument is of another type; totals, too, have no single readings.
+        Where an argument is of another type; totals are not accepted, as they have no
+        single readings.
     ParameterError
         Where grids or shapes differ, or the rule or region is no member of its enum.
 
@@ -350,14 +351,15 @@ class _Tally:
         if self._taken_off is not None:
             added = added - self._taken_off[cell]
         after = self._update(cell, added, ends)
-        # On the lattice the difference is exactly what stood there before.
+        # On the lattice the difference is exactly the previous value.
         occupied, before = is_occupied(after), is_occupied(after - added)
         new = self._newly_explored(cell)
         moved = np.flatnonzero((occupied != before) | new)
         step, wall = np.searchsorted(ends, moved, "right") - 1, self._wall[cell[moved]]
         arrives, leaves = (_outcome(x[moved], wall) for x in (occupied, before))
         new = new[moved]
-        # Among the explored cells only, a cell's first reading takes it out of none.
+        # Only explored cells count: at its first reading a cell leaves no earlier
+        # outcome.
         left = slice(None) if self._everywhere else ~new
         changes = _by_step(arrives, step, stop - first)
         changes -= _by_step(leaves[left], step[left], stop - first)

@@ -1,4 +1,4 @@
-"""A mapping run: a building under some settings, and everything that follows.
+"""A mapping run: a building under some settings, and all results.
 
 The readings, the cells' classes and the surface of scores are computed when they are
 first asked for, and kept. Nothing of a run depends on a prior or on an update rule:
@@ -34,7 +34,7 @@ from occsim.world import truth_cells, wall_cells
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MapSettings:
-    """What a building is mapped with.
+    """Settings of a mapping run.
 
     Parameters
     ----------
@@ -76,8 +76,8 @@ class MappingRun:
     settings : MapSettings
         Cells and sensor.
     log : EvidenceLog, optional
-        The readings, where they are already known: those of the same world, trajectory,
-        sensor and cells. They are simulated otherwise.
+        The readings, if already known, of the same world, trajectory, sensor and cells.
+        By default they are simulated.
 
     Examples
     --------
@@ -99,7 +99,7 @@ class MappingRun:
 
     @cached_property
     def evidence(self) -> EvidenceLog:
-        """What the readings say, whatever the prior."""
+        """The readings, independent of any prior."""
         if self.log is not None:
             return self.log
         return collect_evidence(
@@ -131,7 +131,7 @@ class MappingRun:
         return {}
 
     def prior_map(self, prior: Prior) -> PriorMap:
-        """Return what the map starts from.
+        """Return the prior map, from which the map starts.
 
         Parameters
         ----------
@@ -155,7 +155,7 @@ class MappingRun:
         Parameters
         ----------
         prior : Prior
-            What the map starts from.
+            The prior.
         rule : UpdateRule, default UpdateRule.PRIOR_ONCE
             How a reading enters the map.
         n_readings : int, optional

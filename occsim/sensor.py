@@ -22,20 +22,20 @@ EDGE_EPS = 1e-9
 """Tolerance of every edge of the field of view, px on distances and rad on bearings.
 
 A pixel centre exactly at reach r, on the side of the cone, or in line with a wall's
-corner must not be decided by the last bit of a cosine: the field of view reaches this
-much further, and walls are this much wider (a ray that grazes a corner is stopped).
-Far above rounding (1e-13 at 1,000 px), far below what can be seen.
+corner must not depend on the last bit of a cosine: the field of view reaches this much
+further, and walls are this much wider (a ray that grazes a corner is stopped). Far
+above rounding (1e-13 at 1,000 px), far below what can be seen.
 """
 
 OWN_PIXEL_EPS_PX = 5e-7
-"""A pixel centre this near the robot is the robot's own: it has no bearing."""
+"""A pixel centre this near the robot coincides with it: it has no bearing."""
 
 SURFACE_DEPTH_PX = 1.5
 """With BehindHit.UNSEEN: how far beyond the hit a wall pixel's centre may lie."""
 
 
 class BehindHit(Enum):
-    """What the sensor says of pixels in view behind the wall it meets."""
+    """What the sensor says of pixels in view behind the wall that it meets."""
 
     OCCUPIED = "occupied"
     """At the hit or beyond: object, as Eq. 4.22 is printed."""
@@ -84,7 +84,7 @@ class Sensor:
             raise ParameterError(
                 f"range_px must be above 0 and finite; got {self.range_px!r}"
             )
-        # A slider in degrees may land a rounding error beyond the full circle.
+        # Converted from degrees, a full circle may exceed 2 pi by rounding.
         if not 0.0 < self.fov_rad <= 2.0 * np.pi + EDGE_EPS:
             raise ParameterError(f"fov_rad must lie in (0, 2 pi]; got {self.fov_rad!r}")
         behind_hit = choice("behind_hit", self.behind_hit, BehindHit)
@@ -144,8 +144,8 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     # Eq. 4.22, first and second case: most cells are all empty or all object.
     log_odds = np.where(empty > 0, LOG_ODDS_MAX, LOG_ODDS_MIN)
     mixed = np.flatnonzero((empty > 0) & (objects > 0))
-    # Third case: the empty share. Clipping is our reading: unclipped, a cell 99 %
-    # empty would count for more than an empty one.
+    # Third case: the empty share. Clipping is our interpretation: unclipped, a cell 99
+    # % empty would count for more than an empty one.
     n_empty, n_object = empty.reshape(-1)[mixed], objects.reshape(-1)[mixed]
     q = n_empty / (n_empty + n_object)
     log_odds.reshape(-1)[mixed] = logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))

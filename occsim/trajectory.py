@@ -14,7 +14,7 @@ from occsim.world import World
 MAX_RESAMPLED = 50_000
 """Most poses that `resample` makes; as many as a trajectory file may hold."""
 
-# Nearer than this, px, two positions are one: far below what a drawing can show.
+# Positions nearer than this, px, are the same: far below what a drawing can show.
 _SAME_PLACE_PX = 1e-6
 
 
@@ -22,7 +22,7 @@ class HeadingMode(Enum):
     """Where the robot looks along a path."""
 
     ALONG = "along"
-    """Along the way."""
+    """Along the path."""
     CARDINAL = "cardinal"
     """The nearest of right, down, left and up."""
     FOUR = "four"
@@ -73,7 +73,7 @@ class Trajectory:
         return len(self.poses)
 
 
-def outside(trajectory: Trajectory, world: World) -> BoolArray:
+def outside_drawing(trajectory: Trajectory, world: World) -> BoolArray:
     """Return which poses lie outside the drawing.
 
     Parameters
@@ -105,16 +105,16 @@ def inside_walls(trajectory: Trajectory, world: World) -> BoolArray:
     Returns
     -------
     ndarray of bool, shape (S,)
-        False for poses outside the drawing (see `outside`).
+        False for poses outside the drawing (see `outside_drawing`).
     """
-    off = outside(trajectory, world)
+    off = outside_drawing(trajectory, world)
     cols, rows = np.floor(
         np.where(off[:, None], 0.0, trajectory.poses[:, :2])
     ).T.astype(np.int64)
     return np.asarray(world.occupied[rows, cols] & ~off)
 
 
-def without(trajectory: Trajectory, drop: BoolArray) -> Trajectory:
+def drop_poses(trajectory: Trajectory, drop: BoolArray) -> Trajectory:
     """Return the trajectory without the marked poses.
 
     Parameters
@@ -158,8 +158,8 @@ def resample(
     step_px : float
         Along the path from one position to the next, px, above 0.
     heading_mode : HeadingMode, default HeadingMode.ALONG
-        Where the robot looks. At a corner, along the way that leaves it; at the
-        end, the way that it came. A path of one waypoint looks right.
+        Where the robot looks. At a corner, along the part that leaves it; at the end,
+        along the last part. A path of one waypoint looks right.
     turn_at_waypoints : bool or array_like of bool, shape (K,), default False
         Whether the robot stops at each waypoint, or at these, and looks in the four
         directions, starting with the one nearest to its heading, clockwise on the
@@ -174,11 +174,11 @@ def resample(
     Raises
     ------
     TrajectoryError
-        Where the waypoints are none or not finite numbers in pairs, or more than
-        `MAX_RESAMPLED` poses would result.
+        Where there are no waypoints, or they are not pairs of finite numbers, or more
+        than `MAX_RESAMPLED` poses would result.
     ParameterError
-        Where the step is not above 0, the mode is no `HeadingMode`, or it is not said
-        for each waypoint whether to turn.
+        Where the step is not above 0, the mode is no `HeadingMode`, or
+        `turn_at_waypoints` has another shape.
     """
     points, is_new = _waypoints(waypoints_px)
     turning = _turning(turn_at_waypoints, is_new)
@@ -199,7 +199,7 @@ def resample(
 
 
 def _waypoints(waypoints_px: npt.ArrayLike) -> tuple[FloatArray, BoolArray]:
-    """Return waypoints that differ from the ones before them, and which these are."""
+    """Return the waypoints that differ from the one before, and flags for them."""
     try:
         points = np.asarray(waypoints_px, dtype=np.float64)
     except (TypeError, ValueError):
@@ -245,9 +245,9 @@ def _require_few_poses(
 def _positions_along(
     total_px: float, step_px: float, stops_px: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """Return the lengths of path at which to stand, and which of them are stops."""
+    """Return the distances along the path of all positions, and which are stops."""
     regular = np.arange(0.0, total_px, step_px)
-    # A regular position that rounding puts a hair from a stop is that stop.
+    # A regular position within rounding of a stop is that stop.
     after = np.searchsorted(stops_px, regular)
     beyond = np.append(stops_px, np.inf)[after] - regular
     before = regular - np.insert(stops_px, 0, -np.inf)[after]

@@ -1,4 +1,4 @@
-"""The world that the sensor sees, and its walls gathered into cells."""
+"""The world that the sensor sees, and its wall cells."""
 
 from dataclasses import dataclass
 
@@ -22,7 +22,7 @@ class World(ShortRepr):
     Raises
     ------
     TypeError
-        Where the array is not of truth values.
+        Where the array is not bool.
     ParameterError
         Where it is not two-dimensional, or empty.
 

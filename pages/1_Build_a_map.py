@@ -15,15 +15,15 @@ $p_\text{free} = 0.9\,p_\text{wall}$ on wall cells and $0.9\,p_\text{space}$ els
 $$l_k = l_{k-1} + \operatorname{logit} p_\text{free}(z_k)$$
 
 This counts the drawing once. It is Bayes' rule for these readings: 0.9 and 0.1 were set
-for a cell about which nothing is known, so there is nothing of the drawing in them to
-take off. *Probabilistic Robotics*, Table 9.1, subtracts $l_0$ at each reading, because
-its readings have the prior inside; the source, as we reconstruct it, did so with the
+for a cell about which nothing is known, so they contain nothing of the drawing to
+subtract. *Probabilistic Robotics*, Table 9.1, subtracts $l_0$ at each reading, because
+its readings contain the prior; the source, as we reconstruct it, did so with the
 drawing's $l_0$. A cell is declared occupied where $p_\text{free} < 0.5$.
 """
 LIMITS = """
 Poses are known exactly, the sensor has no noise and sees a flat world: stairs are floor
-and glass is wall. The prior is what image processing finds in the drawing, so it errs
-as such a program does.
+and glass is wall. The prior comes from image processing of the drawing, and contains
+its errors.
 """
 
 
@@ -63,10 +63,10 @@ def _words() -> None:
         see, predict, why = st.columns(3, gap="large")
     with see:
         st.markdown(
-            "**See.** The map starts as the drawing says and each reading adds what "
+            "**See.** The map starts from the drawing, and each reading adds what "
             "it saw in its cone. Where a shelf, a step or a railing was taken for a "
-            "wall, the prior is wrong; show the *Errors* and watch what the readings "
-            "make of it."
+            "wall, the prior is wrong; show the *Errors* and watch how the readings "
+            "change it."
         )
     with predict:
         st.markdown(
@@ -75,11 +75,11 @@ def _words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "It falls: walls that the robot sees only the edge of are no longer "
-                "suspected. Now choose *Take it off at every reading*: recall rises, "
-                "because from the second reading on this rule pushes a cell *away* "
-                "from its prior. A wall that was called free ends as occupied, and "
-                "so does a part of the free space."
+                "It falls: the prior no longer marks walls of which the robot sees "
+                "only the edge. Now choose *Subtract it at every reading*: recall "
+                "rises, because from the second reading on this rule pushes a cell "
+                "*away* from its prior. A wall that was called free ends as "
+                "occupied, and so does a part of the free space."
             )
     with why:
         with st.expander("Why: the equations"):

@@ -59,21 +59,21 @@ KINDS = [
 
 
 @pytest.mark.parametrize(("data", "name", "kind"), KINDS, ids=range(len(KINDS)))
-def test_kind_is_told_by_content_then_by_name(data, name, kind):
+def test_kind_is_recognised_by_content_then_by_name(data, name, kind):
     assert kind_of_file(data, name).name == getattr(kind, "name", kind)
 
 
 @pytest.mark.parametrize(
     ("data", "name", "kind"), [case for case in KINDS if case[0]], ids=str
 )
-def test_what_is_no_drawing_is_told_where_it_goes(data, name, kind):
-    told = kind_of_file(data, name)
-    if told in (FileKind.IMAGE, FileKind.PDF):
+def test_the_refusal_of_another_file_says_where_to_open_it(data, name, kind):
+    found = kind_of_file(data, name)
+    if found in (FileKind.IMAGE, FileKind.PDF):
         return
     with pytest.raises(DrawingError) as caught:
         load_drawing(data, name=name or "file")
-    assert told.about in str(caught.value)
-    assert told.advice in str(caught.value)
+    assert found.about in str(caught.value)
+    assert found.advice in str(caught.value)
 
 
 def test_robot_map_is_taken_as_a_drawing_only_where_that_is_asked_for():

@@ -219,7 +219,7 @@ def archive_with(changes=None, *, drop=(), compression=zipfile.ZIP_DEFLATED):
     return out.getvalue()
 
 
-def told(**changes):
+def json_with(**changes):
     """The JSON of `building` with some values replaced."""
     return {JSON_NAME: json.dumps(stored_json() | changes).encode()}
 
@@ -335,43 +335,76 @@ HOSTILE = {
     "no object": (archive_with({JSON_NAME: b"[1]"}), "must hold an object"),
     "no text": (archive_with({JSON_NAME: b"\xff\xfe\x00"}), "must be JSON"),
     "deep": (archive_with({JSON_NAME: b"[" * 200_000}), "must be JSON"),
-    "another format": (archive_with(told(format="x")), "its format must be"),
-    "the future": (archive_with(told(version=3)), "its version must be 1 or 2.*got 3"),
-    "a true version": (archive_with(told(version=True)), "its version must be 1 or 2"),
-    "a title that is none": (archive_with(told(title=5)), "title must be text"),
-    "a long title": (archive_with(told(title="x" * 5000)), "title must be text"),
-    "half a character": (archive_with(told(title="\ud83d")), "title must be text"),
-    "half a name": (archive_with(told(name="\udc00.png")), "name must be text"),
-    "half a key": (archive_with(told(settings={"\ud83d": "5"})), "settings must be"),
-    "half a setting": (archive_with(told(settings={"a": "\ud83d"})), "settings must"),
-    "a wrong door": (archive_with(told(door_px=-1)), r"door_px must lie in \(0"),
-    "a door of words": (archive_with(told(door_px="9")), "door_px must lie in"),
-    "no scale": (archive_with(told(metres_per_px=float("nan"))), "metres_per_px must"),
-    "a huge scale": (archive_with(told(metres_per_px=10**400)), "metres_per_px must"),
-    "no sketch": (archive_with(told(sketch=None)), "sketch must be"),
-    "a far corner": (archive_with(told(sketch=[[1e9, 0, True]])), "sketch must be"),
-    "three numbers": (archive_with(told(sketch=[[1, 2, 3]])), "sketch must be"),
-    "two numbers": (archive_with(told(sketch=[[1, 2]])), "sketch must be"),
-    "strange walls": (archive_with(told(wall_params={"evil": 1})), "wall_params must"),
+    "another format": (archive_with(json_with(format="x")), "its format must be"),
+    "the future": (
+        archive_with(json_with(version=3)),
+        "its version must be 1 or 2.*got 3",
+    ),
+    "a true version": (
+        archive_with(json_with(version=True)),
+        "its version must be 1 or 2",
+    ),
+    "a title that is none": (archive_with(json_with(title=5)), "title must be text"),
+    "a long title": (archive_with(json_with(title="x" * 5000)), "title must be text"),
+    "half a character": (archive_with(json_with(title="\ud83d")), "title must be text"),
+    "half a name": (archive_with(json_with(name="\udc00.png")), "name must be text"),
+    "half a key": (
+        archive_with(json_with(settings={"\ud83d": "5"})),
+        "settings must be",
+    ),
+    "half a setting": (
+        archive_with(json_with(settings={"a": "\ud83d"})),
+        "settings must",
+    ),
+    "a wrong door": (archive_with(json_with(door_px=-1)), r"door_px must lie in \(0"),
+    "a door of words": (archive_with(json_with(door_px="9")), "door_px must lie in"),
+    "no scale": (
+        archive_with(json_with(metres_per_px=float("nan"))),
+        "metres_per_px must",
+    ),
+    "a huge scale": (
+        archive_with(json_with(metres_per_px=10**400)),
+        "metres_per_px must",
+    ),
+    "no sketch": (archive_with(json_with(sketch=None)), "sketch must be"),
+    "a far corner": (
+        archive_with(json_with(sketch=[[1e9, 0, True]])),
+        "sketch must be",
+    ),
+    "three numbers": (archive_with(json_with(sketch=[[1, 2, 3]])), "sketch must be"),
+    "two numbers": (archive_with(json_with(sketch=[[1, 2]])), "sketch must be"),
+    "strange walls": (
+        archive_with(json_with(wall_params={"evil": 1})),
+        "wall_params must",
+    ),
     "wall words": (
-        archive_with(told(wall_params={"ink_level": "much"})),
+        archive_with(json_with(wall_params={"ink_level": "much"})),
         "ink_level in wall_params must be a number; got 'much'",
     ),
     "a wall number": (
-        archive_with(told(wall_params={"straighten": 1})),
+        archive_with(json_with(wall_params={"straighten": 1})),
         "straighten in wall_params must be true or false",
     ),
     "walls out of bounds": (
-        archive_with(told(wall_params={"ink_level": 7})),
+        archive_with(json_with(wall_params={"ink_level": 7})),
         r"ink_level must lie in \[0, 0\.95\]",
     ),
-    "a blind sensor": (archive_with(told(sensor={"range_px": 0})), "range_px must be"),
+    "a blind sensor": (
+        archive_with(json_with(sensor={"range_px": 0})),
+        "range_px must be",
+    ),
     "a strange sensor": (
-        archive_with(told(sensor={"behind_hit": ["unseen"]})),
+        archive_with(json_with(sensor={"behind_hit": ["unseen"]})),
         "behind_hit in sensor must be one of occupied, unseen; got",
     ),
-    "settings that are none": (archive_with(told(settings=[])), "settings must be"),
-    "numbers for texts": (archive_with(told(settings={"a": 1})), "settings must be"),
+    "settings that are none": (
+        archive_with(json_with(settings=[])),
+        "settings must be",
+    ),
+    "numbers for texts": (
+        archive_with(json_with(settings={"a": 1})),
+        "settings must be",
+    ),
 }
 
 

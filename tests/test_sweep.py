@@ -60,7 +60,7 @@ def test_a_cell_read_twice_is_wall_only_above_a_level():
 
 
 def test_a_tie_is_free_but_both_sides_of_it_differ():
-    # Prior 0.9 * 1 and a reading of 0.1 cancel; a hair less and the cell is wall.
+    # Prior 0.9 * 1 and a reading of 0.1 cancel; slightly less, and the cell is wall.
     grid = Grid(height_px=1, width_px=1, cell_px=1)
     evidence = log_of(grid, [{0: 0.1}])
     wall = np.array([[True]])

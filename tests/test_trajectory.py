@@ -26,10 +26,10 @@ from occsim.trajectory import (
     MAX_RESAMPLED,
     HeadingMode,
     Trajectory,
+    drop_poses,
     inside_walls,
-    outside,
+    outside_drawing,
     resample,
-    without,
 )
 from occsim.world import World
 
@@ -65,12 +65,18 @@ def test_poses_outside_and_in_walls_are_marked_and_dropped():
     trajectory = Trajectory(
         poses=[[0, 0, 0], [3.0, 1, 0], [2.999, 1, 0], [4.0, 1, 0], [1, -0.1, 0]]
     )
-    assert outside(trajectory, world).tolist() == [False, False, False, True, True]
+    assert outside_drawing(trajectory, world).tolist() == [
+        False,
+        False,
+        False,
+        True,
+        True,
+    ]
     assert inside_walls(trajectory, world).tolist() == [False, True] + [False] * 3
-    drop = outside(trajectory, world) | inside_walls(trajectory, world)
-    assert without(trajectory, drop).poses[:, 0].tolist() == [0.0, 2.999]
+    drop = outside_drawing(trajectory, world) | inside_walls(trajectory, world)
+    assert drop_poses(trajectory, drop).poses[:, 0].tolist() == [0.0, 2.999]
     with pytest.raises(TrajectoryError, match="all 5 poses"):
-        without(trajectory, np.ones(5, bool))
+        drop_poses(trajectory, np.ones(5, bool))
 
 
 @pytest.mark.parametrize(

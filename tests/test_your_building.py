@@ -279,7 +279,7 @@ def test_ground_truth_from_the_mask_from_nothing_and_none():
     app = paint(app, "board_truth", dots(80))
     assert own(app).world.occupied[80, 50]
     assert not own(app).wall_mask[80, 50]
-    app = press(app, "Start from nothing")
+    app = press(app, "Start from an empty mask")
     assert not own(app).world.occupied.any()
     app = press(app, "Map without ground truth")
     assert own(app).truth is None

@@ -1,9 +1,8 @@
 """A drawing: the image an architect gives, and its safe loading from a file.
 
-Files are hostile until checked: only the formats of a short list are tried, sizes are
-read from the header before any pixel is decoded, decoding happens in a process of its
-own with limits of memory and time, and every failure becomes a `DrawingError` of one
-sentence.
+Files are not trusted: only the formats of a short list are tried, sizes are read from
+the header before any pixel is decoded, decoding happens in a process of its own with
+limits of memory and time, and every failure becomes a `DrawingError` of one sentence.
 """
 
 from occsim.imaging.drawing import Drawing

@@ -51,12 +51,12 @@ class Drawing:
 
     @classmethod
     def from_decoder(cls, rgb: ByteArray, name: str) -> "Drawing":
-        """Return the drawing of pixels that nobody else holds, without a copy.
+        """Return a drawing that takes over an array without copying it.
 
         Parameters
         ----------
         rgb : ndarray of uint8, shape (H, W, 3)
-            Not written to from now on.
+            The caller must not write to it afterwards.
         name : str
             What to call it.
 

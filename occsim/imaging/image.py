@@ -19,7 +19,7 @@ PLAIN_PNG_PIXELS = 4_000_000
 """Largest PNG that is decoded in this process, px."""
 
 PLAIN_PNG_BYTES = 8_000_000
-"""Largest file of one."""
+"""Largest file of such a PNG, bytes."""
 
 _PLAIN_CHUNKS = {
     *{b"IHDR", b"PLTE", b"IDAT", b"IEND", b"tRNS", b"bKGD", b"sBIT"},
@@ -76,8 +76,8 @@ def load_drawing(
 
     Notes
     -----
-    What strangers bring is decoded in a process of its own, see
-    :mod:`occsim.imaging.pool`; only small plain PNG files are decoded here.
+    Files are decoded in a separate process, see :mod:`occsim.imaging.pool`; only small
+    plain PNG files are decoded in this one.
 
     Examples
     --------
@@ -136,12 +136,12 @@ def _pixels(
 
 
 def _is_plain_png(data: bytes) -> bool:
-    """Return whether a PNG is small and has nothing that could make it costly.
+    """Return whether a PNG is small and has no chunk that could be costly to read.
 
-    Every buffer then follows from width and height, the compressed pixels are unpacked
-    no further than that, and the checksums of a limited number of chunks are all else
-    that is computed: 64 MB and half a second at most. Profiles, texts and metadata,
-    which unpack or parse to anything, send a file to the decoder's process.
+    Width and height then bound every buffer and the unpacked pixels; besides, only the
+    checksums of a limited number of chunks are computed: 64 MB and half a second at
+    most. Profiles, texts and metadata can unpack to any size, so a file with them goes
+    to the decoder's process.
     """
     if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) > PLAIN_PNG_BYTES:
         return False
@@ -159,7 +159,7 @@ def _upright(stored: ByteArray, orientation: int) -> ByteArray:
     """Turn and mirror an image as its orientation in EXIF says."""
     if orientation in (5, 6, 7, 8):
         stored = stored.transpose(1, 0, 2)
-    # Of rows and columns as they stand now.
+    # In terms of the current rows and columns.
     flip_rows, flip_columns = orientation in (3, 4, 7, 8), orientation in (2, 3, 6, 7)
     if flip_rows:
         stored = stored[::-1]

@@ -1,14 +1,14 @@
-"""What kind of file a stranger's file is, and where it goes."""
+"""What kind of file a user's file is, and where it can be opened."""
 
 import re
 from enum import Enum
 
 HEAD_BYTES = 4096
-"""So much of a file is looked at; only a map's pixels are all looked at."""
+"""Bytes of a file that are examined; of a robot's map, all pixels are."""
 
 
 class FileKind(Enum):
-    """Kinds of files that people bring; the value is what to call it.
+    """Kinds of files that users open; the value is the name for messages.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ _MARKS = (
     (rb"\0\0\0\x0c(jP|JXL) |\xff\x4f\xff\x51|\xff\x0a", FileKind.JPEG_2000),
 )
 _CONTENTS = (
-    (rb"%PDF-", FileKind.PDF),  # readers accept some bytes of junk before the mark
+    (rb"%PDF-", FileKind.PDF),  # readers accept some bytes before the signature
     (rb"(?i)<svg\b", FileKind.SVG),
     (rb"(?i)<!doctype html|<html\b", FileKind.HTML),
     (rb"(?m)^(FLASER|RLASER|ROBOTLASER\d|RAWLASER\d|ODOM) \S", FileKind.CARMEN_LOG),
@@ -99,7 +99,7 @@ _SUFFIXES = {
     **{".mcap": FileKind.ROS_BAG_MCAP, ".dwg": FileKind.DWG, ".dxf": FileKind.DXF},
     **dict.fromkeys((".rvt", ".skp", ".vsdx", ".dgn", ".ifc"), FileKind.OFFICE),
 }
-# What a map server writes: occupied, unknown, free.
+# Levels that a map server writes: occupied, unknown, free.
 _MAP_LEVELS = b"\x00\xcd\xfe"
 _PGM_HEADER = re.compile(rb"P5((?:\s+|#[^\n]*\n)+\d+){3}\s")
 _MAP_COMMENT = re.compile(rb"#[^\n]*(m/pix|map_saver|Map_generator)")
@@ -147,7 +147,7 @@ def _is_robot_map(data: bytes) -> bool:
     if _MAP_COMMENT.search(header.group()):
         return True
     levels = data[header.end() :]
-    # Two of the levels are no drawing's: paper is 255.
+    # Paper is 255, so a drawing has neither of these two levels.
     has_own = b"\xcd" in levels or b"\xfe" in levels
     return has_own and not levels.translate(None, _MAP_LEVELS)
 
@@ -158,5 +158,5 @@ def _is_text(head: bytes) -> bool:
     try:
         head.decode("utf-8")
     except UnicodeDecodeError as error:
-        return error.start > len(head) - 4  # a letter cut in two at the end
+        return error.start > len(head) - 4  # the last character may be cut
     return True

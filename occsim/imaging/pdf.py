@@ -97,7 +97,7 @@ def is_pdf(source: bytes | str | Path) -> bool:
 
 
 def _read_pdf(source: bytes | str | Path, name: str | None) -> tuple[bytes, str]:
-    """Return the content and name of a file that is a PDF by its mark."""
+    """Return the content and name of a file that has a PDF's signature."""
     data, name = read_drawing_file(source, name)
     kind = kind_of_file(data, name)
     if kind is not FileKind.PDF:

@@ -1,10 +1,10 @@
-"""Processes that decode what strangers bring, so that no file ends or blocks this one.
+"""Separate processes that decode files, so that no file can crash or block this one.
 
-PDFium and the image libraries bound neither memory nor time: a PDF of 694 bytes takes
-7 GB and then the process. So they work in a few processes of their own, which are
-started when first needed, serve one file after another, and are replaced when they
-break. Memory is bounded by the system on Linux, by the process itself on macOS, and on
-Windows only by the sizes in a file's header; time is bounded everywhere.
+PDFium and the image libraries limit neither memory nor time: a PDF of 694 bytes can
+take 7 GB and crash the process. So they run in a few separate processes, which are
+started on first use, decode one file after another, and are replaced when they crash.
+Memory is bounded by the system on Linux, by the process itself on macOS, and on Windows
+only by the sizes in a file's header; time is bounded everywhere.
 
 They are plain subprocesses that run one folder of this package: the caller's own script
 is not imported again, as `multiprocessing` would, and needs no ``__main__`` guard.
@@ -29,10 +29,10 @@ from occsim.errors import DrawingError
 from occsim.imaging.decode.limits import MAX_MEMORY_BYTES, MAX_SECONDS, MAX_WALL_SECONDS
 
 MAX_PROCESSES = 4
-"""At most at a time; each that waits takes about 40 MB."""
+"""Most decoders at a time; an idle one takes about 40 MB."""
 
 MAX_WAIT_S = 30.0
-"""Longest wait for one to be free, s."""
+"""Longest wait for a free decoder, s."""
 
 DECODER = Path(__file__).with_name("decode") / "__main__.py"
 
@@ -47,14 +47,14 @@ class Decoder:
     """One process, and the pipes to it."""
 
     def __init__(self) -> None:
-        # Found where this process finds them, but for `site`, which takes a while.
+        # Packages are found on this process's path; `site` is skipped: it is slow.
         folders = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-S", "-B", str(DECODER)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            # One thread: more reserve address space and gain nothing.
+            # One thread: more would reserve address space without being faster.
             env=os.environ | {"PYTHONPATH": folders, "OPENBLAS_NUM_THREADS": "1"},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
@@ -64,7 +64,7 @@ class Decoder:
 
     @property
     def is_fit(self) -> bool:
-        """Whether it can take another file."""
+        """Whether the process can take another file."""
         is_over = self._is_late or self._is_spent
         return not is_over and self._process.poll() is None
 
@@ -89,9 +89,9 @@ class Decoder:
         DrawingError
             Where the process does not start.
         EOFError
-            Where it breaks.
+            Where the process crashes.
         TimeoutError
-            Where it does not finish in time.
+            Where the process does not finish in time.
         """
         timer = threading.Timer(MAX_WALL_SECONDS, self._be_late)
         timer.daemon = True
@@ -106,7 +106,7 @@ class Decoder:
             raise EOFError from None
         finally:
             timer.cancel()
-            timer.join()  # or it might end a process that serves the next file
+            timer.join()  # else it might end a process that decodes the next file
 
     def _exchange(self, data: bytes, request: Reply) -> tuple[Reply, ByteArray]:
         line = json.dumps(request | {"n_bytes": len(data)})
@@ -132,7 +132,7 @@ class Decoder:
         return message
 
     def _ran_out_of_time(self) -> bool:
-        """Return whether the system ended the process for its use of the processor."""
+        """Return whether the system's limit of processor time ended the process."""
         with contextlib.suppress(subprocess.TimeoutExpired):
             return self._process.wait(timeout=1.0) == -OUT_OF_TIME
         return False
@@ -145,13 +145,13 @@ class Decoder:
         """Leave the process to another owner."""
         self._requests.close()
         self._replies.close()
-        self._process.returncode = 0  # it is not ours to wait for
+        self._process.returncode = 0  # not our child: it cannot be waited for
 
     def end(self) -> None:
         """End the process and wait for it, so that nothing of it is left."""
         self._process.kill()
         for pipe in (self._requests, self._replies):
-            with contextlib.suppress(OSError):  # what was not yet written
+            with contextlib.suppress(OSError):  # the unwritten rest of the request
                 pipe.close()
         self._process.wait()
 
@@ -164,7 +164,7 @@ class Pool:
         self._idle: list[Decoder] = []
 
     def answer(self, data: bytes, name: str, **request: Any) -> tuple[Reply, ByteArray]:
-        """Return what a decoder makes of a file, as `Decoder.answer` does.
+        """Return a decoder's reply for a file, as `Decoder.answer` does.
 
         Parameters
         ----------
@@ -184,8 +184,8 @@ class Pool:
         Raises
         ------
         DrawingError
-            Where the decoder refuses the file, breaks, takes too much memory or too
-            long, or none is free.
+            Where the decoder refuses the file, crashes, takes too much memory or too
+            long, or where no decoder is free.
         """
         try:
             with self._decoder() as decoder:
@@ -208,7 +208,7 @@ class Pool:
 
     @contextlib.contextmanager
     def _decoder(self) -> Iterator[Decoder]:
-        """Lend a decoder, which is ended where it breaks or is interrupted."""
+        """Lend a decoder; end it if it crashes or is interrupted."""
         if not self._free.acquire(timeout=MAX_WAIT_S):
             raise DrawingError(
                 f"{MAX_PROCESSES} other files are being decoded, the most at a time; "
@@ -242,12 +242,12 @@ class Pool:
             raise DrawingError(NOT_STARTED) from None
 
     def end(self) -> None:
-        """End what is idle; the rest ends when it has answered."""
+        """End idle decoders; the others end after their reply."""
         while self._idle:
             self._idle.pop().end()
 
     def forget(self) -> None:
-        """Start afresh in a fork: the pipes belong to the process forked from."""
+        """Start with no decoders in a fork: the pipes belong to the parent process."""
         for decoder in self._idle:
             decoder.disown()
         self._free, self._idle = threading.BoundedSemaphore(MAX_PROCESSES), []

@@ -1,4 +1,4 @@
-"""What image and PDF files have in common: reading them, and what they may cost."""
+"""What image and PDF files have in common: how they are read, and their limits."""
 
 from numbers import Integral
 from pathlib import Path
@@ -42,7 +42,7 @@ def read_drawing_file(
 
 
 def checked_side(name: str, value: Any) -> int:
-    """Return the longer side wanted, px, or refuse it."""
+    """Check and return the longer side wanted, px."""
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not is_whole or not MIN_SIDE_PX <= int(value) <= MAX_SIDE_PX:
         raise ParameterError(

@@ -1,7 +1,7 @@
-"""One motion of a drawing: crop, quarter turns, straightening or working size.
+"""One transform of a drawing: crop, quarter turns, straightening or working size.
 
 A `Transform` holds the matrix that takes a point x, y (px) of the old drawing to the
-new one. It is applied to the drawing and to all that was made on it: masks, points,
+new one. It is applied to the drawing and to everything located on it: masks, points,
 poses.
 """
 
@@ -21,7 +21,7 @@ Shape = tuple[int, int]
 WHITE = (255, 255, 255)
 
 EDGE_EPS_PX = 1e-9
-"""Far above the rounding of a place in a drawing, far below what moves a line."""
+"""Far above the rounding of a position in a drawing, far below a visible shift."""
 
 # Cosine and sine of the quarter turns, clockwise on the screen.
 _QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
@@ -29,7 +29,7 @@ _QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 @dataclass(frozen=True, eq=False)
 class Transform:
-    """A motion of a drawing and of all that was made on it.
+    """A transform of a drawing and of everything located on it.
 
     Made by `crop`, `quarter_turns`, `straighten` or `fit`.
 
@@ -72,7 +72,7 @@ class Transform:
         x_px, y_px : int
             Top left corner of the rectangle, px.
         width_px, height_px : int
-            Its size, px. What reaches beyond the drawing is left out.
+            Its size, px. The part beyond the drawing is left out.
 
         Returns
         -------
@@ -102,7 +102,7 @@ class Transform:
         shape : tuple of int
             Height and width of the drawing, px.
         turns : int, default 1
-            Clockwise; negative ones the other way.
+            Clockwise; negative for counter-clockwise.
 
         Returns
         -------
@@ -126,7 +126,7 @@ class Transform:
         Returns
         -------
         Transform
-            To a larger drawing, so that no corner is lost.
+            The new drawing is larger, so that no corner is lost.
 
         Raises
         ------
@@ -190,9 +190,9 @@ class Transform:
         Returns
         -------
         Drawing
-            Of the same name; itself where nothing moves. New corners are white. Scaled
-            down, a pixel is the mean of those it covers: thin lines grow pale but do
-            not vanish.
+            Of the same name; the same object for the identity. New corners are white.
+            Scaled down, a pixel is the mean of those it covers: thin lines grow pale
+            but do not vanish.
 
         Raises
         ------
@@ -280,7 +280,7 @@ class Transform:
     def scale(self) -> float:
         """Length in the new drawing of what was one pixel long; 1 for turns."""
         scale = float(np.sqrt(abs(np.linalg.det(self.matrix[:, :2]))))
-        # The rounding of a sine makes no turn a change of size.
+        # The rounding of a sine must not make a turn look like a change of size.
         return scale if scale < 1.0 - 1e-9 else 1.0
 
     @property

@@ -76,7 +76,7 @@ def outcome_picture(
     region: Region = Region.EXPLORED,
     zoom: int = 1,
 ) -> ByteArray:
-    """Return where a map finds, invents and misses walls.
+    """Return a picture of the walls that a map finds, misses and wrongly declares.
 
     Parameters
     ----------

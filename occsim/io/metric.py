@@ -74,7 +74,7 @@ def poses_to_image(poses_m: npt.ArrayLike, frame: MetricFrame) -> Trajectory:
     """
     metric = Trajectory(poses=np.asarray(poses_m))
     x_m, y_m, yaw = metric.poses.T
-    with np.errstate(over="ignore"):  # what is too far away is refused below
+    with np.errstate(over="ignore"):  # overflow becomes infinity, refused below
         x_px = (x_m - frame.origin_x_m) / frame.metres_per_px
         y_px = frame.height_px - (y_m - frame.origin_y_m) / frame.metres_per_px
     return Trajectory(poses=np.stack([x_px, y_px, wrap_angle(-yaw)], axis=1))

@@ -15,7 +15,7 @@ FORMAT = "occsim prior map"
 VERSION = 1
 
 Plain = str | int | float | bool | None
-"""What a settings file may hold beside the prior."""
+"""Values that a settings file may hold beside the prior."""
 
 
 def prior_png(prior_map: PriorMap) -> bytes:
@@ -85,7 +85,7 @@ def prior_json(
     drawing: Drawing,
     chosen_on: Mapping[str, Plain] | None = None,
 ) -> str:
-    """Return the settings that make a prior map again from the same drawing.
+    """Return the settings that reproduce a prior map from the same drawing.
 
     Parameters
     ----------
@@ -96,8 +96,8 @@ def prior_json(
     drawing : Drawing
         Where its walls were found.
     chosen_on : mapping, optional
-        What the pair was chosen on, as plain values: sensor, update rule, scores. NaN
-        becomes null.
+        The conditions under which the pair was chosen, as plain values: sensor, update
+        rule, scores. NaN becomes null.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The replay: all that a player needs to redraw a mapping run, as a few bytes.
+"""The replay: all that a player needs to redraw a mapping run, in compact form.
 
 A replay holds the evidence log, the two classes of every cell, the poses and a preview
 of the drawing. It holds no prior: the player fuses any prior with the log by itself.
@@ -51,11 +51,11 @@ from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 
 MAX_ENTRIES = 12_000_000
-"""More cell updates than this would make a browser tab short of memory."""
+"""Most cell updates: more could exhaust the memory of a browser tab."""
 MAGIC = b"OGR1"
 HEADER = struct.Struct("<4s11I2d")
 PREVIEW_MAX_PX = 1200
-"""Longest side of the preview: no stage on a screen shows more."""
+"""Longest side of the preview, px: no screen shows more."""
 PREVIEW_STEP = 17
 """Quantisation of the preview: 16 levels, black and white among them."""
 PNG_MAX_BYTES = 96_000
@@ -68,7 +68,7 @@ COLOUR_SPREAD = 12
 
 @dataclass(frozen=True, eq=False)
 class Replay:
-    """What a replay's bytes hold.
+    """The content of a replay's bytes.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def unpack_replay(packed: bytes) -> Replay:
     Raises
     ------
     ParameterError
-        Where the bytes are no replay of this version, or are cut short.
+        Where the bytes are not a replay of this version, or are cut short.
     """
     try:
         return _read(zlib.decompress(packed))
@@ -296,10 +296,10 @@ def _value_index(
 
 
 def _read(content: bytes) -> Replay:
-    """Return the replay in a decompressed stream; raise where it does not add up."""
+    """Return the replay in a decompressed stream; raise where sizes do not agree."""
     magic, *numbers = HEADER.unpack_from(content)
     if magic != MAGIC:
-        raise ValueError("the first four bytes are others")
+        raise ValueError("the first four bytes differ")
     height, width, cell_px, n_readings, n_entries, n_runs, n_values = numbers[:7]
     index_bytes, preview_bytes, _, _, range_px, fov_rad = numbers[7:]
     grid = Grid(height_px=height, width_px=width, cell_px=cell_px)

@@ -22,7 +22,7 @@ class ControlledElitism(Survival):  # type: ignore[misc]  # pymoo is untyped
     """Keep some of every front, geometrically fewer of the later ones.
 
     Within a front the least crowded survive. Where fronts are smaller than their
-    shares, what is still open goes to the best individuals left out.
+    shares, the remaining places go to the best individuals left out.
 
     Parameters
     ----------

@@ -1,11 +1,12 @@
 """The exact Pareto front over a continuous box of prior pairs.
 
 Precision TP / (TP + FP) and recall TP / (TP + FN) both rise with TP, and only precision
-falls with FP. TP and FP are sums of one term that p_wall decides and one that p_space
-decides, each a step function with finitely many states. If one term's state is
-replaced by one of no fewer TP and no more FP, neither objective falls; so only the
-states of each term that are non-dominated in (TP up, FP down) matter, and for every
-total of TP only the fewest FP. What remains is enumerated.
+falls with FP. TP and FP are sums of one term that depends on p_wall and one that
+depends on p_space, each a step function with finitely many states. Replacing the state
+of one term by one with at least as many TP and at most as many FP lowers neither
+objective. So only the states of each term that are non-dominated in (TP up, FP down)
+matter, and for every total of TP only the fewest FP. The remaining combinations are
+enumerated.
 """
 
 from dataclasses import dataclass
@@ -26,7 +27,7 @@ from occsim.priors.surface import PriorSurface, StepCount, prior_levels, prior_s
 
 @dataclass(frozen=True, eq=False)
 class _States:
-    """Intervals of one prior value and the counts that hold throughout each.
+    """Intervals of one prior value, with the counts that are constant in each.
 
     Parameters
     ----------
@@ -42,7 +43,7 @@ class _States:
     fp: IntArray
 
     def take(self, index: npt.NDArray[np.generic]) -> "_States":
-        """Return only some of the states, by index or by flag."""
+        """Return a subset of the states, by index or by flag."""
         return _States(
             self.low[index], self.high[index], self.tp[index], self.fp[index]
         )
@@ -61,7 +62,7 @@ def exact_front(
     """Return every non-dominated (precision, recall) over a box of prior pairs.
 
     Exact for all real (p_wall, p_space) in ``[low, high]`` squared, not only for those
-    of a table: ties and the ends of the box are among them.
+    of a table; ties and the ends of the box are included.
 
     Parameters
     ----------
@@ -97,9 +98,9 @@ def exact_front(
 
     Notes
     -----
-    What only the width of the decision's tie band brings about (`DECISION_EPS`) is on
-    no front: intervals narrower than twice that count only where they hold an end of
-    the box or l_0 = 0, at which cells that were never read tie.
+    Points that exist only because of the width of the tie band (`DECISION_EPS`) are on
+    no front: an interval narrower than twice that width counts only where it contains
+    an end of the box, or l_0 = 0, where unread cells tie.
 
     Examples
     --------
@@ -145,8 +146,8 @@ def surface_front(
     i, j = _fewest_false(wall, space)
     tp, fp = wall.tp[i] + space.tp[j], wall.fp[i] + space.fp[j]
     precision = precision_of(tp, fp)
-    # By TP ascending, each total once: a point stays if no higher total has
-    # precision as good. A total of 0 hits nothing and belongs to no front.
+    # By TP ascending, each total once: a point stays if no higher total has the same
+    # precision or better. A total of 0 is on no front.
     later = np.maximum.accumulate(np.append(precision, -np.inf)[::-1])[::-1][1:]
     keep = (tp > 0) & (precision > later)
     wall, space = wall.take(i[keep]), space.take(j[keep])
@@ -173,7 +174,7 @@ def rectangles_at(
     surface : PriorSurface
         From `prior_surface`.
     p_wall, p_space : float
-        Any pair, on a front or not.
+        Any pair.
     low, high : float, default 0.1 and 1
         Bounds of p_wall and p_space, in (0, 1].
 
@@ -181,8 +182,8 @@ def rectangles_at(
     -------
     ndarray of float64, shape (M, 4)
         Rows p_wall_low, p_wall_high, p_space_low, p_space_high: every pair in the box
-        with the same counts of true and false positives, but for those within the
-        decision's tie band; see `exact_front`.
+        with the same counts of true and false positives, except those within the tie
+        band; see `exact_front`.
 
     Raises
     ------
@@ -200,7 +201,7 @@ def rectangles_at(
     base = surface.n_wall + surface.n_space + 1
     key = space.tp * base + space.fp
     order = np.argsort(key, kind="stable")
-    # What p_wall leaves open; counts below zero match nothing.
+    # The counts that p_space must supply; negative ones match nothing.
     open_tp, open_fp = tp - wall.tp, fp - wall.fp
     wanted = np.where(open_fp >= 0, open_tp * base + open_fp, -1)
     first = np.searchsorted(key[order], wanted, side="left")
@@ -225,15 +226,15 @@ def _states(
     starts = np.unique(starts[(starts > bottom) & (starts <= top)])
     starts = np.concatenate(([bottom], starts))
     counts = np.stack((tp(starts), fp(starts)))
-    # Where one cell falls as another rises the state goes on.
+    # Where one cell falls as another rises, the counts and so the state stay.
     new = np.append(True, (np.diff(counts) != 0).any(axis=0))
     starts, counts = starts[new], counts[:, new]
-    # Within the tie band a cell is left free that exactly taken is wall; a tie itself
-    # is free, and its interval begins with it.
+    # Within the tie band a cell counts as free that would be wall without the band. A
+    # tie itself is free, and its interval begins with it.
     band = DECISION_EPS // LATTICE_NATS * LATTICE_NATS
     first, last = starts + band, np.append(starts[1:] - LATTICE_NATS - band, top)
-    # The ends of the box are attained however narrow the interval that holds them, and
-    # so is the tie of cells that were never read, l_0 = 0.
+    # The ends of the box, and the tie of unread cells at l_0 = 0, are attained however
+    # narrow the interval that contains them.
     first[0], last[0] = bottom, max(last[0], bottom)
     first[-1] = min(first[-1], top)
     tie = np.searchsorted(starts, 0.0, side="right") - 1

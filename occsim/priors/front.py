@@ -18,10 +18,10 @@ from occsim.errors import ParameterError, expect, real_array, real_number, share
 from occsim.priors.sweep import PriorSweep
 
 MIN_RECALL = 0.40
-"""Threshold of set C: the source found it by experiment to keep the structure."""
+"""Threshold of set C; the source found by experiment that it keeps the structure."""
 
 DECIMALS = 4
-"""Decimals of a prior value that is handed over, where its interval has room."""
+"""Decimals of a recommended prior value, if its interval is wide enough."""
 
 ROUNDING = 1e-12
 """Slack of comparisons with a tolerance, far below one cell's share of any score."""
@@ -35,7 +35,7 @@ class ParetoFront(ShortRepr):
     ----------
     p_wall, p_space : ndarray of float64, shape (K,)
         A pair that attains each point. On an exact front it is rounded to 4 decimals
-        or fewer inside its rectangle, where that has room; see `is_single`.
+        or fewer inside its rectangle, if that is wide enough; see `is_single`.
     precision, recall : ndarray of float64, shape (K,)
         The points: recall ascends strictly, precision descends strictly, both above 0.
     rectangles : ndarray of float64, shape (K, 4), optional
@@ -55,9 +55,10 @@ class ParetoFront(ShortRepr):
 
     @property
     def is_single(self) -> BoolArray:
-        """Whether p_wall, and p_space, must be handed over to the last digit, (K, 2).
+        """Whether p_wall, and p_space, need all their digits, (K, 2).
 
-        False where the value has 4 decimals or fewer: as printed, it attains the point.
+        False where the value has 4 decimals or fewer: the printed value attains the
+        point.
         """
         pairs = np.stack((self.p_wall, self.p_space), axis=1)
         return np.asarray(pairs != np.round(pairs, DECIMALS))
@@ -87,7 +88,7 @@ class ParetoFront(ShortRepr):
         return hypervolume(self.precision, self.recall, ref)
 
     def take(self, index: npt.ArrayLike) -> "ParetoFront":
-        """Return the front with only some of its points, by index or by flag."""
+        """Return a subset of the front's points, by index or by flag."""
         chosen = np.asarray(index)
         rows = self.rectangles
         return ParetoFront(
@@ -179,8 +180,8 @@ def front_of(
     Parameters
     ----------
     p_wall, p_space, precision, recall : ndarray of float64, shape (N,)
-        Pairs and what they score; pairs that hit nothing (recall 0 or NaN) are left
-        out, for the objectives 1/precision and 1/recall are infinite there.
+        Pairs and what they score; pairs with recall 0 or NaN are left out, because
+        1/precision and 1/recall are infinite there.
 
     Returns
     -------
@@ -199,8 +200,8 @@ def hypervolume(
     """Return the area between a set of points and a reference point.
 
     The objectives are 1/precision and 1/recall, both minimised, as in the source. The
-    area is that of all objective pairs which some point is no worse than and which
-    are no worse than the reference.
+    area covers all objective pairs that some point weakly dominates and that are no
+    worse than the reference.
 
     Parameters
     ----------
@@ -405,7 +406,7 @@ def good_region(
     Raises
     ------
     TypeError
-        Where something else than sequences of sweeps and fronts is given.
+        Where the arguments are not sequences of sweeps and fronts.
     ParameterError
         Where there is no drawing, the axes or the numbers of drawings differ, or the
         tolerance lies outside its domain.

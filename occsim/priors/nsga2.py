@@ -33,8 +33,8 @@ ONE_HALF = 0.5 / PRIOR_SCALE
 """Value of p_wall or p_space that is a prior of one half."""
 
 PENALTY = 1e6
-"""Stands for 1/precision or 1/recall where the score is 0 or undefined: finite, for
-distances between individuals are taken, and worse than one cell in a million."""
+"""Value of 1/precision or 1/recall where the score is 0 or undefined: finite, because
+distances between individuals are computed, and worse than one cell in a million."""
 
 
 class Elitism(Enum):
@@ -123,8 +123,8 @@ def nsga2_generations(
     TypeError
         Where the objective is none of these.
     ParameterError
-        At once where a value lies outside its domain; on the way where the objective
-        returns something else than precision and recall.
+        Immediately where a value lies outside its domain; during the run where the
+        objective does not return precision and recall.
     """
     pop_size = whole_number("pop_size", pop_size, 4, 10_000)
     n_gen = whole_number("n_gen", n_gen, 1, 10_000)
@@ -176,8 +176,8 @@ def nsga2_front(
     TypeError
         Where the objective is none of those.
     ParameterError
-        Where a value lies outside its domain, or the objective returns something else
-        than precision and recall.
+        Where a value lies outside its domain, or the objective does not return
+        precision and recall.
     """
     generations = nsga2_generations(
         objective,
@@ -220,8 +220,8 @@ def _algorithm(
 def _first_population(
     pop_size: int, seed: int, bounds: tuple[float, float]
 ) -> FloatArray:
-    # Random, but for the priors that tie, which no random pair and no small step would
-    # find: 0.9 * 1 with the sensor's readings, one half with cells that were not read.
+    # Random pairs, and the priors that tie, which no random pair or small step would
+    # hit: 0.9 * 1 with the sensor's readings, one half with unread cells.
     pairs = np.random.default_rng(seed).uniform(*bounds, (pop_size, 2))
     inside = bounds[0] < ONE_HALF < bounds[1]
     values = (*bounds, ONE_HALF) if inside else bounds
@@ -237,7 +237,7 @@ def _run(
     while algorithm.has_next():
         offspring = algorithm.ask()
         if offspring is None or not len(offspring):
-            return  # No new pair is left to try: the box is a few bits wide.
+            return  # No new pair is left to try: the box holds only a few floats.
         pairs = offspring.get("X").astype(np.float64)
         scores = objective(pairs)
         offspring.set("F", _minimised(scores), "scores", scores)

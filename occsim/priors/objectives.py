@@ -1,4 +1,4 @@
-"""What the search asks of a prior pair: its precision and recall."""
+"""The search's objectives: precision and recall of a prior pair."""
 
 import inspect
 from collections.abc import Callable
@@ -61,7 +61,7 @@ def exact_objective(
     region: Region = Region.EXPLORED,
     scale: float = PRIOR_SCALE,
 ) -> ObjectiveFunction:
-    """Return the objective that each pair's own map gives.
+    """Return the objective that scores the map of each pair.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def surface_objective(surface: PriorSurface) -> ObjectiveFunction:
 
 
 def as_objective(objective: AnyObjective) -> ObjectiveFunction:
-    """Return whatever can tell precision and recall of a prior pair as one function.
+    """Return anything that gives precision and recall of a prior pair as one function.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def as_objective(objective: AnyObjective) -> ObjectiveFunction:
 def _takes_two_numbers(function: Callable[..., Any]) -> bool:
     try:
         parameters = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):  # some functions of compiled code tell nothing
+    except (TypeError, ValueError):  # some compiled functions have no signature
         return False
     needed = [
         parameter
@@ -151,7 +151,7 @@ def _takes_two_numbers(function: Callable[..., Any]) -> bool:
 
 
 def _checked(scores: Any, n_pairs: int, *, in_columns: bool = False) -> FloatArray:
-    """Return scores as an array, once they are known to be precision and recall."""
+    """Check scores and return them as an array of precision and recall."""
     try:
         array = np.asarray(scores, dtype=np.float64)
     except (TypeError, ValueError):

@@ -8,9 +8,9 @@ import numpy as np
 def geometric_shares(sizes: Sequence[int], n_survive: int, ratio: float) -> list[int]:
     """Return how many individuals of each front survive, geometrically fewer.
 
-    Front i of K may keep N_i = N (1 - r) / (1 - r^K) r^(i - 1) of N survivors; what a
-    smaller front leaves open passes to the next [1]_. Places that remain at the end
-    are filled from the first front on.
+    Front i of K may keep N_i = N (1 - r) / (1 - r^K) r^(i - 1) of N survivors; places
+    that a smaller front leaves empty pass to the next [1]_. Places that remain at the
+    end are filled from the first front on.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def geometric_shares(sizes: Sequence[int], n_survive: int, ratio: float) -> list
     passed_on = 0.0
     for size, share in zip(sizes, ideal, strict=True):
         allowed = share + passed_on
-        # Rounding, too, is passed on, so that the shares keep their sum.
+        # Rounding errors are passed on too, so that the shares keep their sum.
         kept.append(min(size, int(np.floor(allowed + 0.5)), n_survive - sum(kept)))
         passed_on = allowed - kept[-1]
     for i, size in enumerate(sizes):

@@ -1,9 +1,9 @@
 """The counts of a final map as exact functions of the prior pair.
 
-Wall cells answer to p_wall alone and space cells to p_space alone. In the closed form
-``l = S + w l_0`` (w = 1 - k, or 1) each cell flips at one level of its prior's
-log-odds l_0, so the counts of each class are step functions of one variable, known
-once the levels are sorted. Every sweep and the exact Pareto front are read from them.
+Wall cells depend on p_wall alone and space cells on p_space alone. In the closed form
+``l = S + w l_0`` (w = 1 - k, or 1) each cell flips at one level of its prior's log-odds
+l_0, so the counts of each class are step functions of one variable, known once the
+levels are sorted. Every sweep and the exact Pareto front are read from them.
 """
 
 from dataclasses import dataclass
@@ -217,7 +217,7 @@ def _step_count(sums: FloatArray, weight: FloatArray) -> StepCount:
     l_0 with ``S + w l_0 < -DECISION_EPS`` is a division of whole numbers, so every
     count equals that of a fused map, at ties too.
     """
-    # The largest log-odds on the lattice that are declared wall, and what S leaves.
+    # The largest log-odds on the lattice that are declared wall, less S.
     wall = np.ceil(-DECISION_EPS / LATTICE_NATS) - 1.0
     room = (wall - sums / LATTICE_NATS).astype(np.int64)
     w = weight.astype(np.int64)

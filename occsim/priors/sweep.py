@@ -27,7 +27,7 @@ SOURCE_AXIS = tuple(round(0.1 * i, 1) for i in range(1, 11))
 
 
 class Objective(Enum):
-    """What a prior pair is judged by."""
+    """Scores by which a prior pair is judged."""
 
     PRECISION = "precision"
     RECALL = "recall"
@@ -201,7 +201,7 @@ def interpolate(
     Returns
     -------
     ndarray of float64
-        NaN where one of the corners that bear weight is undefined.
+        NaN where a corner of non-zero weight is undefined.
 
     Raises
     ------
@@ -219,7 +219,8 @@ def interpolate(
     for i, row_weight in ((row, 1.0 - row_share), (row + 1, row_share)):
         for j, col_weight in ((col, 1.0 - col_share), (col + 1, col_share)):
             weight = row_weight * col_weight
-            # An undefined corner of no weight must not spoil a defined point.
+            # An undefined corner of weight zero must not make a defined point
+            # undefined.
             total = total + np.where(weight == 0.0, 0.0, weight * table[i, j])
     return total
 
@@ -317,8 +318,8 @@ def _runs(flags: BoolArray) -> list[tuple[int, int]]:
 
 
 def _runs_of_equal_rows(flags: BoolArray) -> list[tuple[int, int]]:
-    # First and last of neighbouring rows that are marked alike; the same for an
-    # unmarked row does no harm, it has no runs of its own.
+    # First and last of neighbouring rows that are marked alike. Unmarked rows are
+    # grouped too, but have no runs.
     new = np.flatnonzero((flags[1:] != flags[:-1]).any(axis=1)) + 1
     firsts = [0, *new.tolist()]
     return list(zip(firsts, [*(new - 1).tolist(), len(flags) - 1], strict=True))

@@ -16,8 +16,8 @@ SIDE_SIN = np.array([0.0, 1.0, 0.0, -1.0])
 """Unit vector of each side's looking direction (right, down, left, up), exactly."""
 
 REACH_MAX_PX = 1e6
-"""A longer reach is cut to this, farther than any image extends: its square must not
-swamp the tolerances."""
+"""A longer reach is cut to this, farther than any image extends: the tolerances must
+not vanish beside its square."""
 
 
 @dataclass(frozen=True, eq=False)

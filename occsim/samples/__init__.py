@@ -28,7 +28,7 @@ from occsim.sensor import Sensor
 from occsim.world import world_from_image
 
 FOLDER = Path(__file__).resolve().parent
-"""Where the files lie: drawings, truths, trajectories and ``samples.json``."""
+"""Folder of the files: drawings, truths, trajectories and ``samples.json``."""
 
 
 Sample = Building
@@ -67,7 +67,7 @@ def load_sample(name: str) -> Building:
     Returns
     -------
     Building
-        Its walls are looked for when they are first needed.
+        Its walls are detected on first use.
 
     Raises
     ------

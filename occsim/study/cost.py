@@ -1,8 +1,8 @@
 """What one mapping step costs: the recursion taken literally, and timed.
 
-`fuse` uses a closed form; a robot cannot, for it does not know the readings to come.
-Here the map is updated reading by reading, as it would be on board, so that the cost
-of a step can be measured with one prior and with another.
+`fuse` uses a closed form. A robot cannot, because it does not know later readings. Here
+the map is updated reading by reading, as it would be on board, so that the cost of a
+step can be measured with one prior and with another.
 
 References
 ----------
@@ -102,8 +102,9 @@ def step_costs(
 ) -> list[StepCost]:
     """Measure what one reading's update costs with each of some priors.
 
-    The runs take turns, so that what else the machine does falls on all priors alike.
-    The simulation of the readings is not part of it: it does not know the prior.
+    The runs of the priors alternate, so that other load on the machine affects all
+    alike. The simulation of the readings is not measured: it does not depend on the
+    prior.
 
     Parameters
     ----------

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 MAP_POINTS = 200
 """Values across a colour map."""
 WORST = 4.0
-"""Largest 1/precision and 1/recall of a plot of fronts. A front may reach recalls near
-0, beside which the rest would be one point."""
+"""Largest 1/precision and 1/recall in a plot of fronts. Recalls near 0 would stretch
+the axis until the rest is one point."""
 DPI = 120
 
 # Okabe and Ito's colours: distinguishable with all common colour vision deficiencies.
@@ -134,7 +134,7 @@ def _figure(cases: Sequence[StudyCase], width: float, height: float) -> Figure:
     if not cases:
         raise ParameterError("a figure needs at least one case; got none")
     with needs_extra("study", "a figure"):
-        # Not pyplot: it keeps every figure and looks for a screen.
+        # Not pyplot, which keeps every figure in memory and needs a display.
         from matplotlib.figure import Figure
     return Figure(figsize=(width, height), layout="constrained")
 
@@ -173,7 +173,7 @@ def _draw_colours(ax: Axes, case: StudyCase, objective: Objective) -> None:
 
 
 def _limits(values: FloatArray) -> tuple[float, float]:
-    # A flat or undefined map has no range of its own to spread.
+    # A constant or undefined map has no range of values.
     defined = values[~np.isnan(values)]
     if not defined.size:
         return 0.0, 100.0
@@ -186,8 +186,8 @@ def _draw_front(
 ) -> None:
     points = case.front.objectives
     x, y = points[np.lexsort((-points[:, 1], points[:, 0]))].T
-    # Between two points nothing better is attained: the border turns where both are
-    # at their worse.
+    # Nothing better is attained between two points: the border is a staircase through
+    # the worse value of each.
     ax.step(x, y, where="post", color=colour, ls=dashes, lw=1.2, alpha=0.7)
     name = _plain(f"{case.name}, {case.cell_px} px cells")
     ax.plot(x, y, marker, color=colour, markersize=5, label=name)
@@ -226,11 +226,11 @@ def _frame_fronts(ax: Axes, cases: Sequence[StudyCase]) -> None:
 
 
 def _percent(value: Any) -> Any:
-    # Its own inverse; matplotlib tries it at 0 too.
+    # 1/x is its own inverse; matplotlib also evaluates it at 0.
     with np.errstate(divide="ignore"):
         return 100.0 / np.asarray(value, dtype=np.float64)
 
 
 def _plain(text: str) -> str:
-    # Names of files are shown as they are: no mathematics between dollar signs.
+    # Escape file names: matplotlib would read text between dollar signs as mathematics.
     return text.replace("$", r"\$")

@@ -1,4 +1,4 @@
-"""Cases of a study as JSON files, so that a study can go on where it stopped."""
+"""Cases of a study as JSON files, so that a stopped study can continue."""
 
 import hashlib
 import json
@@ -28,14 +28,14 @@ _POINTS = ("p_wall", "p_space", "precision", "recall")
 
 
 class StudyStep(NamedTuple):
-    """A case of a study as it comes, and how far the study is."""
+    """One case of a study, and the study's progress."""
 
     case: StudyCase
     done: int
-    """Cases so far, this one included."""
+    """Cases so far, including this one."""
     total: int
     is_kept: bool
-    """Whether the folder held it already."""
+    """Whether the case was read from the folder."""
 
 
 def study_cases(
@@ -56,7 +56,7 @@ def study_cases(
         The source's by default.
     folder : Path, optional
         An existing folder: cases that it holds under the same settings are read, the
-        others are computed and saved there, so that a study can go on where it stopped.
+        others are computed and saved there, so that a stopped study can continue.
 
     Yields
     ------
@@ -112,7 +112,7 @@ def _kept_or_run(
 def case_settings(
     drawing: Building, cell_px: int, settings: StudySettings
 ) -> dict[str, Any]:
-    """Return everything that a case depends on, as plain values.
+    """Return all inputs of a case, as plain values.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def case_settings(
 
 
 def case_path(folder: Path, described: dict[str, Any]) -> Path:
-    """Return where a case belongs; other settings give another file.
+    """Return the path of a case; other settings give another file.
 
     Parameters
     ----------

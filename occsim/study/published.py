@@ -1,7 +1,7 @@
-"""The maxima that the source printed, to stand beside our own and never to tune to.
+"""The maxima that the source printed, for comparison only: nothing is tuned to them.
 
-The five drawings of the source are not ours to use; the samples are drawings of the
-same kinds. Figures therefore differ, and the pattern is what can be compared.
+The source's five drawings may not be used; the samples are drawings of the same kinds.
+Figures therefore differ, and the pattern is what can be compared.
 
 References
 ----------

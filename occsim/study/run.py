@@ -30,7 +30,7 @@ from occsim.sensor import BehindHit, Sensor
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class StudySettings:
-    """What all cases of a study have in common.
+    """Settings shared by all cases of a study.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class StudyCase:
     blank : Scores
         Of the map without a drawing: a prior of one half.
     is_reference : bool
-        Whether the drawing is a sample, beside which published figures may stand.
+        Whether the drawing is a sample, for which there are published figures.
     """
 
     name: str
@@ -199,7 +199,7 @@ def study_drawing(source: str, sensor: Sensor | None = None) -> Building:
 
 
 def is_reference(building: Building) -> bool:
-    """Return whether this is the unchanged sample of that name, not only called so.
+    """Return whether this is an unchanged sample, not only a building of that name.
 
     Parameters
     ----------

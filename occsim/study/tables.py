@@ -58,7 +58,7 @@ def maxima_rows(cases: Iterable[StudyCase]) -> list[Row]:
     -------
     list of tuple
         One row a case and objective, columns `MAXIMA_COLUMNS`; undefined percentages
-        are NaN, and the published ones are so for all drawings but the samples.
+        are NaN, as are the published ones of drawings other than the samples.
     """
     by_size = sorted(cases, key=lambda case: case.cell_px)
     rows: list[Row] = []
@@ -156,7 +156,7 @@ def maxima_text(cases: Iterable[StudyCase]) -> str:
 
 
 def pattern_text(cases: Iterable[StudyCase]) -> str:
-    """Return in words how far the source's pattern appears."""
+    """Return sentences on how far the source's pattern appears."""
     found: Pattern = pattern(cases)
     n = found.n_cases
     return "\n".join(

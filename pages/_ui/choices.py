@@ -1,4 +1,4 @@
-"""What can be chosen on the pages, and the words for every choice."""
+"""The choices on the pages, and the label of each."""
 
 from collections.abc import Mapping
 from enum import Enum
@@ -64,14 +64,14 @@ class FrontAxes(Enum):
 
 
 class Objectives(Enum):
-    """What the search for a front is told of each pair."""
+    """Where the search for a front gets the scores of each pair."""
 
     INTERPOLATED = "interpolated"
     EXACT = "exact"
 
 
 class Handover(Enum):
-    """Which prior pair the guided path hands over."""
+    """Which prior pair the guided path recommends."""
 
     RECOMMENDED = "recommended"
     CHOSEN = "chosen"
@@ -81,7 +81,7 @@ CHOICES: Mapping[Enum, str] = {
     BehindHit.OCCUPIED: "Occupied (Eq. 4.22 as printed)",
     BehindHit.UNSEEN: "Unseen (the field's usual rule)",
     UpdateRule.PRIOR_ONCE: "Count the drawing once",
-    UpdateRule.SUBTRACT_PRIOR: "Take it off at every reading (the source, as we "
+    UpdateRule.SUBTRACT_PRIOR: "Subtract it at every reading (the source, as we "
     "reconstruct it)",
     Region.EXPLORED: "Explored cells",
     Region.ALL: "All cells",

@@ -49,13 +49,13 @@ from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
 from pages._ui.shared import shared
 
-# A class of thirty students on two cores: without this each simulation would be slowed
-# by all others, and everyone would wait for the sum.
+# Thirty students may share two cores: without this limit all simulations would run at
+# once, and each would take as long as all together.
 _CORES = threading.BoundedSemaphore(os.cpu_count() or 1)
 
 
 MANY_ENTRIES = 1_000_000
-"""Cell updates of a run beyond which its timing is repeated less often."""
+"""Cell updates of a run above which its timing is repeated less often."""
 
 
 @contextmanager
@@ -73,7 +73,7 @@ def sample(name: str) -> Building:
 
 
 def with_walls(building: Building) -> Building:
-    """The same building, its walls found now, so that every edit keeps them."""
+    """The same building with its walls detected, so that every edit keeps them."""
     return replace(building, found=building.walls_found)
 
 
@@ -84,22 +84,22 @@ def own_building(drawing: Drawing, sensor: Sensor, working_px: int) -> Building:
 
 
 def anonymous(building: Building) -> Building:
-    """The same building without the words of the student who brought it.
+    """The same building without texts by the student who uploaded it.
 
-    Whatever is cached is shared by all sessions: nothing that a user typed belongs in.
+    Cached values are shared by all sessions, so they must not contain a user's text.
     """
     drawing = replace(building.drawing, name="drawing")
     return replace(building, drawing=drawing, name="", title="", about="")
 
 
 def mapped(building: Building, settings: MapSettings) -> MappingRun:
-    """A building mapped under some settings; shared by all who map the same.
+    """A building mapped under some settings; shared by all sessions with the same ones.
 
     Raises
     ------
     ParameterError
-        Where the settings ask for more than a replay can hold: better one sentence now
-        than a minute of waiting first.
+        Where the settings ask for more than a replay can hold. Raised before the
+        simulation, which could take a minute.
     """
     n_readings = len(building.trajectory)
     grid = building.world.grid(settings.cell_px)
@@ -118,7 +118,8 @@ def mapped(building: Building, settings: MapSettings) -> MappingRun:
 def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingRun:
     run = MappingRun(_building, settings)
     with core():
-        # Asked for now, while a core is held: whoever shares the run finds it done.
+        # Computed now, while a core is held, so that all who share the run find it
+        # done.
         _ = run.evidence
     return run
 
@@ -169,8 +170,8 @@ def sweep(of: Run, values: Sequence[float]) -> PriorSweep:
 class SearchStep:
     """One generation of a search.
 
-    ``real`` holds precision and recall of each pair's own map; ``seen`` what the
-    search was told instead, None where that is the same. ``share`` is the hypervolume
+    ``real`` holds precision and recall of each pair's own map; ``seen`` the values that
+    the search used instead, None where they are the same. ``share`` is the hypervolume
     of the real scores as a share of the exact front's.
     """
 
@@ -181,14 +182,14 @@ class SearchStep:
 
 
 def search_key(of: Run, settings: Settings) -> tuple[object, ...]:
-    """What a search depends on: with equal keys it takes the same course."""
+    """All inputs of a search: equal keys give equal searches."""
     names = ("objectives", "elitism", "pop_size", "n_gen", "seed")
     own = tuple(getattr(settings, name) for name in names)
     return of.building.digest, of.settings.mapping, settings.rule, settings.region, own
 
 
 def search(of: Run, settings: Settings) -> Iterator[SearchStep]:
-    """The generations of a search for the front, each as soon as it is there."""
+    """The generations of a search for the front, each as soon as it is computed."""
     exact, ref = surface_objective(of.surface), reference_point(of.front)
     interpolated = settings.objectives is Objectives.INTERPOLATED
     table = interpolated_objective(sweep(of, SOURCE_AXIS))
@@ -201,7 +202,7 @@ def search(of: Run, settings: Settings) -> Iterator[SearchStep]:
     )
     whole = of.front.hypervolume(ref)
     while True:
-        # One generation at a time: others get their turn in between.
+        # One generation at a time, so that other sessions can compute in between.
         with core():
             generation = next(generations, None)
             if generation is None:
@@ -280,7 +281,7 @@ def reshaped(building: Building, transform: Transform) -> Building:
 
 
 def tilt(drawing: Drawing) -> float | None:
-    """By how much a drawing is turned, rad; None where that is not clear."""
+    """Tilt of a drawing, rad; None where it is not clear."""
     return _tilt(drawing.digest, drawing)
 
 
@@ -291,7 +292,7 @@ def _tilt(digest: str, _drawing: Drawing) -> float | None:
 
 
 def comparison(building: Building) -> MaskComparison:
-    """How far the wall mask agrees with the world, by pixels."""
+    """Scores of the wall mask against the world, pixel by pixel."""
     return _comparison(building.digest, building)
 
 

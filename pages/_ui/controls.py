@@ -10,7 +10,7 @@ from pages._ui.choices import CHOICES
 from pages._ui.settings import TABLE
 
 CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
-"""What every chart is drawn with: a click chooses, and the wheel scrolls the page."""
+"""Plotly options of every chart: a click selects, and the wheel scrolls the page."""
 NARROW_PX = 165
 """Two sliders of this width stand side by side on a telephone of 390 px."""
 DRAWING_PX = 290
@@ -109,7 +109,7 @@ def drawing_choice() -> None:
         "Drawing",
         list(titles),
         format_func=titles.__getitem__,
-        help="Five reference drawings, and your own once you have brought one.",
+        help="Five reference drawings, and your own once you have uploaded one.",
         width=DRAWING_PX,
         **state.bind_choice(),
     )

@@ -24,7 +24,7 @@ FREE = "#ffffff"
 UNSEEN = "#c8c8c8"
 UNSEEN_HATCH = "#8f8f8f"
 
-# What is laid over a drawing or a map.
+# Marks over a drawing or a map.
 PAPER = "#ffffff"
 WALL_MASK = "#aa4499"
 GROUND_TRUTH = "#117733"
@@ -39,8 +39,8 @@ ERASER = "#cc3377"
 # Surfaces of precision and recall: perceptually even, safe without colour vision.
 SCORE_SCALE = "cividis"
 
-# The reference drawings a to e, and whatever else is overlaid in one chart.
+# The reference drawings a to e, and other series of one chart.
 SERIES = ["#0072B2", "#D55E00", "#009E73", "#AA4499", "#8a7600", "#555555"]
 MARK = "#cc3377"
-# Lines and words that guide the eye, readable on light and on dark.
+# Auxiliary lines and labels, readable on light and on dark.
 GUIDE = "#808495"

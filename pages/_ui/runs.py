@@ -1,4 +1,4 @@
-"""A run: one building, mapped once, ready to be asked about any prior pair."""
+"""A run: one building, mapped once, for any prior pair."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -40,7 +40,8 @@ CHANGE_COLOURS = (palette.EVIDENCE_WALL, palette.EVIDENCE_ZERO, palette.EVIDENCE
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A student's building with its rule and region, over readings shared by all.
+    """A student's building with its rule and region, over readings shared by all
+    sessions.
 
     ``settings`` may hold a prior; it is not used: every prior is an argument here.
     """
@@ -51,7 +52,7 @@ class Run:
 
     @property
     def evidence(self) -> EvidenceLog:
-        """What the readings say, whatever the prior."""
+        """The readings, independent of any prior."""
         return self.mapped.evidence
 
     @property
@@ -70,7 +71,7 @@ class Run:
         return self.mapped.sweep(values, values, settings.rule, settings.region)
 
     def prior_map(self, prior: Prior) -> PriorMap:
-        """What the map starts from."""
+        """The prior map, from which the map starts."""
         return self.mapped.prior_map(prior)
 
     def map(self, prior: Prior) -> OccupancyMap:
@@ -78,7 +79,7 @@ class Run:
         return self.mapped.map(prior, self.settings.rule)
 
     def scores(self, prior: Prior) -> Scores:
-        """How good that map is."""
+        """The scores of that map."""
         return self.mapped.scores(prior, self.settings.rule, self.settings.region)
 
     def picture(self, prior: Prior, kind: Picture) -> bytes:
@@ -98,7 +99,7 @@ class Run:
 
     @property
     def notice(self) -> str:
-        """What keeps this run from being scored or swept, in a sentence; else empty."""
+        """Why this run cannot be scored or swept, in a sentence; empty if it can."""
         if not self.evidence.cell.size:
             return (
                 "No reading saw any cell, so the map is the prior and nothing else: "

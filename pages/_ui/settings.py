@@ -1,7 +1,7 @@
 """Every setting of the app, declared once: name, default, bounds, label, unit.
 
-Controls, the share link and the checks on what comes from outside all read the
-metadata of these fields. Nothing here knows Streamlit.
+Controls, the share link and the checks of outside values all read the metadata of these
+fields. Nothing here depends on Streamlit.
 """
 
 import math
@@ -28,7 +28,7 @@ from pages._ui.choices import (
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Setting:
-    """What may be set: its bounds (or choices) and the words that stand beside it."""
+    """One setting: its bounds or choices, and its texts on screen."""
 
     label: str
     help: str
@@ -39,7 +39,7 @@ class Setting:
 
 
 def setting(default: Any, **declared: Any) -> Any:
-    """Return a field of `Settings` with its bounds and words."""
+    """Return a field of `Settings` with its bounds and texts."""
     return field(default=default, metadata={"setting": Setting(**declared)})
 
 
@@ -241,7 +241,7 @@ class Settings:
 
     @property
     def mapping(self) -> MapSettings:
-        """What the readings and the classes of the cells depend on."""
+        """The settings that the readings and the classes of the cells depend on."""
         return MapSettings(
             cell_px=self.cell_px,
             sensor=self.sensor,
@@ -260,7 +260,7 @@ class Settings:
 TABLE: Mapping[str, Setting] = {
     one.name: one.metadata["setting"] for one in fields(Settings)
 }
-"""What is declared of each setting, by its name."""
+"""The declaration of each setting, by its name."""
 
 
 def with_changes(settings: Settings, changes: Mapping[str, Any]) -> Settings:
@@ -290,7 +290,7 @@ def decode(
 ) -> tuple[Settings, list[str]]:
     """Return the settings of a link, and the names of those it gives wrong values.
 
-    What is missing or wrong keeps its default; what is unknown is not looked at.
+    A missing or wrong value leaves the default; unknown names are ignored.
     """
     good: dict[str, Any] = {}
     wrong: list[str] = []

@@ -1,7 +1,7 @@
 """Results that all sessions share, within one bound of bytes.
 
-Keys are digests and frozen parameters, never large arrays. What is stored is never
-written to and holds no words of a student.
+Keys are digests and frozen parameters, never large arrays. Stored values are never
+written to and hold no text by a student.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 MAX_BYTES = 400_000_000
-"""All results together; the one that was asked for longest ago goes first."""
+"""Limit of all results together, bytes; the least recently used is dropped first."""
 
 
 def size_of(parts: Iterable[object]) -> int:
@@ -41,13 +41,13 @@ def size_of(parts: Iterable[object]) -> int:
             todo += part
         elif dataclasses.is_dataclass(part):
             todo += [getattr(part, one.name) for one in dataclasses.fields(part)]
-            # What was computed from the fields and remembered.
+            # Values computed from the fields and cached.
             todo += getattr(part, "__dict__", {}).values()
     return total
 
 
 class Store:
-    """Results by key; whoever asks for one that is being made waits for it."""
+    """Results by key; a caller waits for a result that another is computing."""
 
     def __init__(self, max_bytes: int = MAX_BYTES):
         self._kept: LRUCache[Any, Any] = LRUCache(
@@ -58,11 +58,11 @@ class Store:
 
     @property
     def n_bytes(self) -> int:
-        """What the results hold together."""
+        """Size of all results together, bytes."""
         return int(self._kept.currsize)
 
     def get(self, key: Any, make: Callable[[], T]) -> T:
-        """Return the result under a key, made now if it is not there."""
+        """Return the result under a key, computed now if it is not there."""
         with self._lock:
             if key in self._kept:
                 return self._kept[key]
@@ -73,7 +73,7 @@ class Store:
                     return self._kept[key]
             try:
                 result = make()
-                # A result larger than all that may be kept is not kept.
+                # A result larger than the limit is not kept.
                 with self._lock, contextlib.suppress(ValueError):
                     self._kept[key] = result
             finally:
@@ -88,7 +88,7 @@ def shared(spinner: str = "") -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Make a function's results shared by all sessions.
 
     Parameters whose names begin with an underscore are not part of the key: the others
-    have to say all that the result depends on.
+    must determine the result.
     """
 
     def decorate(function: Callable[P, T]) -> Callable[P, T]:

@@ -1,4 +1,4 @@
-"""What every page starts with: set-up, the lessons, state; and what it ends with."""
+"""The frame of every page: set-up, lessons and state before it, the link after it."""
 
 import contextlib
 import functools
@@ -33,14 +33,14 @@ LESSONS = (
     Lesson(
         "pages/1_Build_a_map.py",
         "Build a map",
-        "A robot drives through a building and maps it, reading by reading; the "
-        "architect's drawing is what the map starts from.",
+        "A robot drives through a building and maps it, reading by reading; the map "
+        "starts from the architect's drawing.",
     ),
     Lesson(
         "pages/2_Your_building.py",
         "Your building",
-        "Bring a drawing: find its walls, correct them by hand, say what is true, and "
-        "sketch the way of the robot.",
+        "Upload a drawing: detect its walls, correct them by hand, set the ground "
+        "truth, and sketch the robot's path.",
     ),
     Lesson(
         "pages/5_Sweep_the_priors.py",
@@ -57,8 +57,7 @@ LESSONS = (
     Lesson(
         "pages/7_Best_prior.py",
         "Best prior",
-        "The whole way for one drawing: from its walls to the prior that serves it "
-        "best, to download.",
+        "All steps for one drawing: from its walls to the best prior map, to download.",
     ),
     Lesson(
         "pages/8_Study.py",
@@ -68,8 +67,8 @@ LESSONS = (
     ),
 )
 
-# Streamlit leaves 6 rem above the first line and much between blocks; the first
-# screen has to hold the whole instrument at 1280 x 720.
+# Streamlit leaves 6 rem above the first line and wide gaps between blocks; the first
+# screen must show map and controls at 1280 x 720.
 CSS = """
 <style>
 .stMainBlockContainer { padding: 0.75rem 2rem 2rem; max-width: 2200px; }
@@ -111,8 +110,8 @@ CSS = """
 def page(path: str) -> Iterator[Lesson]:
     """Draw what every page has around its own part.
 
-    The set-up, the navigation and notices come before it, the link and the way back
-    after it. Whatever goes wrong in between leaves both, and the student's work.
+    The set-up, the navigation and notices come before it, the link and the reset after
+    it. An error in between leaves both, and the student's work.
     """
     lesson = next(item for item in LESSONS if item.path == path)
     st.set_page_config(
@@ -134,7 +133,7 @@ def page(path: str) -> Iterator[Lesson]:
 
 @contextlib.contextmanager
 def _last_resort(path: str) -> Iterator[None]:
-    """Turn any failure into a sentence; one that is no refusal is logged."""
+    """Turn any failure into a sentence; log it unless it is a refusal."""
     try:
         yield
     except OccsimError as error:
@@ -150,7 +149,7 @@ def _last_resort(path: str) -> Iterator[None]:
 
 
 def fragment(part: Callable[..., None]) -> Callable[..., None]:
-    """Make a part of a page run by itself, with the same care as the whole page."""
+    """Make a part of a page run by itself, with errors handled as on the whole page."""
 
     @st.fragment
     @functools.wraps(part)
@@ -163,7 +162,7 @@ def fragment(part: Callable[..., None]) -> Callable[..., None]:
 
 
 def say_error(text: str) -> None:
-    """Show a sentence on what went wrong; words of a user's stay plain text."""
+    """Show a sentence on what went wrong; a user's text stays plain text."""
     st.error(words.plain(text))
 
 

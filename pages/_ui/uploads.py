@@ -1,6 +1,6 @@
-"""What a student brings: a drawing, a ground truth, a trajectory.
+"""Uploads by a student: a drawing, a ground truth, a trajectory.
 
-Every upload is checked before anything is kept; what is refused changes nothing.
+Every upload is checked before anything is kept; a refused one changes nothing.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ DRAWINGS = "drawings_taken"
 
 
 def panel() -> None:
-    """Draw the three uploads and what they need to be told."""
+    """Draw the three uploads and their options."""
     drawing("own_drawing")
     st.caption(
         "Walls are detected and a tour of the free space is planned, so that the "
@@ -121,7 +121,7 @@ class Pdf:
 
     @property
     def is_shown(self) -> bool:
-        """Whether the building on the page is the one that came from this file."""
+        """Whether the building on the page was made from this file."""
         return (
             self.n_pages > 1
             and state.choice() == state.OWN
@@ -202,7 +202,7 @@ def _frame() -> MetricFrame | None:
 
 
 def pose_notice() -> None:
-    """Say how many poses cannot be real, and offer to drop them."""
+    """Say how many poses are in walls or outside, and offer to drop them."""
     building = state.building()
     found = (
         (building.n_outside, "outside the drawing"),

@@ -1,9 +1,9 @@
-"""Numbers and names as they stand on the pages."""
+"""Numbers and names as the pages show them."""
 
 import re
 
 DASH = "–"
-"""Stands where a value is undefined."""
+"""Shown where a value is undefined."""
 
 SOURCE = (
     "The source: C. Georgiou, *Constructing informative Bayesian priors to improve "
@@ -13,7 +13,7 @@ SOURCE = (
     "(https://doi.org/10.1177/0278364916687027). The drawings are ours, of the same "
     "kinds."
 )
-"""What “the source” means, to be said once on every page that speaks of it."""
+"""What “the source” means, shown once on every page that mentions it."""
 
 
 _SYMBOLS = {
@@ -32,7 +32,7 @@ def maths(text: str) -> str:
 
 
 def chart(text: str) -> str:
-    """The same for a chart, which takes no mathematics: letters and subscripts."""
+    """The same for a chart, which cannot show mathematics: letters and subscripts."""
     return re.sub(r"\b([pl])_(wall|space|free|0)\b", r"<i>\1</i><sub>\2</sub>", text)
 
 
@@ -45,7 +45,7 @@ _MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-.!|~$:&])")
 
 
 def plain(text: str) -> str:
-    """Return a text whose Markdown and HTML say nothing: names of files, titles."""
+    """Return a text with Markdown and HTML escaped: names of files, titles."""
     return _MARKUP.sub(r"\\\1", text.replace("\n", " "))
 
 

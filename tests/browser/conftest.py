@@ -7,7 +7,7 @@ from playwright.sync_api import Error
 
 from tests.browser.running import (
     complaints,
-    no_trouble,
+    no_complaint,
     running_app,
     running_chromium,
 )
@@ -19,7 +19,7 @@ def app_url(tmp_path_factory):
     log_path = tmp_path_factory.mktemp("app") / "server.log"
     with running_app(log_path) as url:
         yield url
-    no_trouble(log_path)
+    no_complaint(log_path)
 
 
 @pytest.fixture(scope="session")

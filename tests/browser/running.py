@@ -62,11 +62,11 @@ def running_app(log_path: Path, script: str = "app.py") -> Iterator[str]:
             server.wait(timeout=20)
 
 
-def no_trouble(log_path: Path) -> None:
+def no_complaint(log_path: Path) -> None:
     """Fail where the server wrote of an error or a warning."""
     text = log_path.read_text()
-    for trouble in ("Traceback", "Warning"):
-        where = text.find(trouble)
+    for complaint in ("Traceback", "Warning"):
+        where = text.find(complaint)
         assert where < 0, text[max(0, where - 500) : where + 2000]
 
 

@@ -10,7 +10,7 @@ import time
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.running import no_trouble, running_app
+from tests.browser.running import no_complaint, running_app
 
 pytestmark = pytest.mark.browser
 
@@ -24,7 +24,7 @@ def board_url(tmp_path_factory):
     log_path = tmp_path_factory.mktemp("board") / "server.log"
     with running_app(log_path, "tests/browser/board_app.py") as url:
         yield url
-    no_trouble(log_path)
+    no_complaint(log_path)
 
 
 class Board:

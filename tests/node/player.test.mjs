@@ -7,13 +7,13 @@ const player = load("player");
 
 // The page, as far as these functions touch it.
 const root = { querySelector: () => ({}) };
-let told = [];
+let committed = [];
 globalThis.refresh = () => {};
 globalThis.showPlaying = () => {};
-globalThis.commit = (p) => told.push(p.state.step);
+globalThis.commit = (p) => committed.push(p.state.step);
 globalThis.cancelAnimationFrame = () => {};
 globalThis.requestAnimationFrame = () => 1;
-beforeEach(() => (told = []));
+beforeEach(() => (committed = []));
 
 const DOCUMENT = {
   rev: 1,
@@ -71,7 +71,7 @@ test("a replay stops at its last reading, once, and says so", () => {
   const p = playerOf({ step: 39 });
   player.play(p);
   player.advance(p, 0.2);
-  assert.deepEqual([p.state.step, p.playing, told], [40, false, [40]]);
+  assert.deepEqual([p.state.step, p.playing, committed], [40, false, [40]]);
   assert.equal(player.pause(p), false);
 });
 
@@ -89,7 +89,7 @@ test("a compact replay waits at its end, then starts again, and tells nobody", (
   player.advance(p, 0.2);
   assert.equal(p.state.step, 40);
   player.advance(p, 0.5);
-  assert.deepEqual([p.state.step, p.playing, told], [0, true, []]);
+  assert.deepEqual([p.state.step, p.playing, committed], [0, true, []]);
 });
 
 test("a step by hand stops the replay and stays within the readings", () => {
@@ -103,7 +103,7 @@ test("a step by hand stops the replay and stays within the readings", () => {
     player.walkTo(p, to);
     assert.deepEqual([p.state.step, p.model.step, p.playing], [step, step, false]);
   }
-  assert.deepEqual(told, [21, 0, 40]);
+  assert.deepEqual(committed, [21, 0, 40]);
 });
 
 test("unless one was chosen, the speed makes a replay last about ten seconds", () => {
@@ -169,7 +169,7 @@ test("another rev imposes its document", () => {
 
 test("a word that was overtaken by what was played gives way to it", () => {
   const back = (key, digest, step) => {
-    player.adopted(headerOf(key, "x", { rev: 3, step: 7 }), null).step = 20; // not told
+    player.adopted(headerOf(key, "x", { rev: 3, step: 7 }), null).step = 20; // not committed
     return player.adopted(headerOf(key, digest, { rev: 4, step }), null).step;
   };
   assert.equal(back("same replay", "x", 7), 20);

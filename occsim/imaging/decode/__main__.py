@@ -27,7 +27,7 @@ def _leave_packages_out() -> None:
 
 
 def _own_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """Take standard input and output away from libraries that print."""
+    """Redirect standard input and output, so that no library prints to the pipe."""
     requests, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_RDWR)
     os.dup2(nowhere, 0)
@@ -80,7 +80,7 @@ def _send(replies: BinaryIO, message: dict[str, Any]) -> None:
 
 
 def main() -> None:
-    """Limit this process and serve its owner; anything unforeseen ends it."""
+    """Limit this process and answer requests; an unexpected error ends it."""
     from occsim.imaging.decode.images import take_over_pillow
     from occsim.imaging.decode.process import limit_process
 

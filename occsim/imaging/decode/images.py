@@ -27,7 +27,7 @@ _WHITE_IS_ZERO = 0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
-    """A decoded picture, on its way.
+    """A picture while it is decoded.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Picture:
     strips : iterator of ndarray of uint8, shape (m, width, 3)
         The rows from the top.
     orientation : int
-        How the camera was held, as in EXIF; 1 is upright.
+        EXIF orientation; 1 is upright.
     """
 
     width: int
@@ -46,11 +46,11 @@ class Picture:
 
 
 def take_over_pillow() -> None:
-    """Set Pillow up for this process: our bounds, no remarks, more kinds of TIFF."""
+    """Configure Pillow here: our limits, no warnings, more kinds of TIFF."""
     warnings.simplefilter("ignore")
     Image.MAX_IMAGE_PIXELS = None
-    # What it unpacks where black is zero, it can where white is; and it unpacks twelve
-    # bits a sample in either order of bytes.
+    # Pillow's unpackers for black-is-zero also work for white-is-zero, and the one for
+    # 12 bits a sample works in both byte orders.
     known = TiffImagePlugin.OPEN_INFO
     known.setdefault((b"MM", 1, (1,), 1, (12,), ()), ("I;16", "I;12"))
     for (order, photometric, kind, fill, bits, more), modes in list(known.items()):
@@ -118,7 +118,7 @@ def _wanted(image: ImageFile.ImageFile, max_side_px: int | None) -> tuple[int, i
                 f"{MAX_DECODED_BYTES / 1e6:.0f} MB are allowed"
             )
     if scale > 1:
-        # No further than memory demands: what is averaged here pales thin lines.
+        # No further than memory requires: averaging here makes thin lines paler.
         image.draft(image.mode, (image.width // scale, image.height // scale))
     return reduced_size(*image.size, max_side_px)
 

@@ -1,4 +1,4 @@
-"""What a drawing may cost, checked before a pixel is decoded where the header tells."""
+"""Limits of a drawing, checked before decoding where the header is enough."""
 
 MIN_SIDE_PX = 8
 """Smallest side, px: nothing narrower holds two walls and a passage between them."""
@@ -19,17 +19,17 @@ inch in grey its 248 million, where it is asked for at a smaller size."""
 
 MAX_MEMORY_BYTES = 580_000_000
 """Address space of a decoder: the image, its file, and 120 MB for the program, of which
-40 MB are ever in memory; measured, a decoder stays below 500 MB."""
+at most 40 MB are in memory. A decoder was measured to stay below 500 MB."""
 
 MAX_SECONDS = 5
-"""Longest time of the processor for one file, s; a plan of 300,000 lines takes 1.5."""
+"""Most processor time for one file, s; a plan of 300,000 lines takes 1.5 s."""
 
 MAX_WALL_SECONDS = 9.5
-"""Longest time by the clock, s, for a machine that is busy with other things."""
+"""Most elapsed time for one file, s, on a busy machine."""
 
 
 class Refused(ValueError):
-    """A file is refused; the text is the sentence for whoever brought it."""
+    """A file is refused; the text is one sentence for the user."""
 
 
 def check_size(width: int, height: int, max_pixels: int | None = MAX_PIXELS) -> None:

@@ -22,7 +22,7 @@ else:
 
 
 def limit_process() -> None:
-    """Bound the memory of this process, and let others go first.
+    """Limit the memory of this process and lower its priority.
 
     On Linux the system enforces the bound. On macOS, which does not, the process
     watches itself ten times a second. Windows has neither: there only the size in a
@@ -31,7 +31,7 @@ def limit_process() -> None:
     if not HAS_LIMITS:
         return
     os.nice(2)
-    _lower(resource.RLIMIT_CORE, 0)  # no gigabytes on disk where a decoder breaks
+    _lower(resource.RLIMIT_CORE, 0)  # no core dump of gigabytes
     if sys.platform == "linux":
         _lower(resource.RLIMIT_AS, MAX_MEMORY_BYTES)
     else:
@@ -39,7 +39,7 @@ def limit_process() -> None:
 
 
 def limit_time() -> None:
-    """Let the system end this process where the next file takes too long."""
+    """Let the system end this process if the next file takes too long."""
     if HAS_LIMITS:
         used = resource.getrusage(resource.RUSAGE_SELF)
         spent_s = used.ru_utime + used.ru_stime
@@ -47,17 +47,17 @@ def limit_time() -> None:
 
 
 def is_spent() -> bool:
-    """Return whether this process took so much memory that a new one should follow.
+    """Return whether this process holds so much memory that it should be replaced.
 
-    What PDFium and glibc took for a large file, they keep.
+    PDFium and glibc keep what they allocated for a large file.
     """
     return HAS_LIMITS and _memory_bytes() > SPENT_BYTES
 
 
 def _memory_bytes() -> int:
-    """Return what this process has in memory, or on macOS ever had."""
+    """Return the memory in use by this process; on macOS, its peak."""
     if sys.platform == "linux":
-        # The peak that Linux tells is that of the process which started this one.
+        # On Linux the peak is inherited from the process that started this one.
         pages = Path("/proc/self/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * resource.getpagesize()
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -65,7 +65,7 @@ def _memory_bytes() -> int:
 
 def _lower(kind: int, value: int) -> None:
     _, hard = resource.getrlimit(kind)
-    with contextlib.suppress(ValueError, OSError):  # not every system knows each limit
+    with contextlib.suppress(ValueError, OSError):  # some systems lack some limits
         resource.setrlimit(kind, (value, hard))
 
 

@@ -1,4 +1,4 @@
-"""Reducing an image while it is decoded, so that it never stands twice in memory."""
+"""Reducing an image while it is decoded, so that memory holds it only once."""
 
 from collections.abc import Callable, Iterator
 
@@ -9,8 +9,8 @@ Bytes = npt.NDArray[np.uint8]
 
 INK_SHARE = 0.6
 """Where a drawing is reduced, each pixel is at least this share as dark as the darkest
-of those it covers: the mean alone leaves a sixth of a line of 1 px at 9500 px, which
-no threshold finds again."""
+of those it covers. The mean alone would leave a line of 1 px, in a drawing of 9500 px,
+a sixth of its darkness, too little for any threshold."""
 
 STRIP_PX = 1_000_000
 """Pixels decoded at a time, about."""

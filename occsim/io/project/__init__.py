@@ -5,14 +5,14 @@ The archive holds images as PNG (``drawing``, ``walls_found``, ``corrections``, 
 else: sketch, scale, sensor, the settings of wall detection, the settings of the
 application as text, versions. In ``corrections.png`` black is erased, white added and
 grey neither; ``walls.png``, the two together, is for people. Version 1 had no
-``corrections.png``: there the corrections are what tells ``walls.png`` from
-``walls_found.png``.
+``corrections.png``: there the corrections are the difference between
+``walls_found.png`` and ``walls.png``.
 
-An archive is hostile until checked: only these names are read, never as paths, none
-beyond its limit of bytes and all together not beyond another; images must have the
-drawing's size before they are decoded; every value of the JSON has to be of its type
-and in its bounds. Walls are not detected anew, so a project stays what it was when the
-detection improves.
+An archive is not trusted: only these names are read, never as paths, each within its
+own limit of bytes and all within a total limit; images must have the drawing's size
+before they are decoded; every value of the JSON must have its type and lie in its
+bounds. Walls are not detected again, so a project keeps its walls when the detection
+improves.
 """
 
 from occsim.io.project.archive import ProjectError

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from occsim.errors import OccsimError
 
 MAX_UNPACKED_BYTES = 100_000_000
-"""Of all files of an archive together."""
+"""Total size of all files of an archive, unpacked, bytes."""
 
 PNG_MARK = b"\x89PNG\r\n\x1a\n"
 JSON_NAME, TRAJECTORY_NAME = "project.json", "trajectory.csv"
@@ -25,7 +25,8 @@ LIMITS: Mapping[str, int] = {
 """Names that an archive may hold, and how many bytes each may unpack to."""
 
 MAX_ENTRIES = 100
-"""In the table of contents, which zipfile reads as a whole before it can be checked."""
+"""Most entries of the table of contents, which zipfile reads before it can be
+checked."""
 
 _ENTRY_MARK = b"PK\x01\x02"
 
@@ -52,7 +53,7 @@ def unpacked(data: bytes) -> dict[str, bytes]:
     Raises
     ------
     ProjectError
-        Where it is no archive, damaged, too large, or holds other files.
+        Where it is not an archive, is damaged or too large, or holds other files.
     """
     n_entries = data.count(_ENTRY_MARK)
     if n_entries > MAX_ENTRIES:
@@ -80,7 +81,7 @@ def _check_entries(entries: list[zipfile.ZipInfo]) -> None:
             f"a project holds only {', '.join(LIMITS)}; got {shown(strange[0])}"
         )
     if len(set(names)) < len(names):
-        raise ProjectError("each file may be in it once; one is there again")
+        raise ProjectError("each file may be in it once; one is there twice")
     missing = {JSON_NAME, DRAWING, FOUND, TRAJECTORY_NAME} - set(names)
     if missing:
         raise ProjectError(f"{', '.join(sorted(missing))} is missing")
@@ -88,7 +89,7 @@ def _check_entries(entries: list[zipfile.ZipInfo]) -> None:
         raise ProjectError("it is encrypted; a project without password is needed")
     ways = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
     if any(entry.compress_type not in ways for entry in entries):
-        raise ProjectError("its files must be stored or deflated; one is packed else")
+        raise ProjectError("its files must be stored or deflated; one is not")
     for entry in entries:
         _check_size(entry.filename, entry.file_size)
     total = sum(entry.file_size for entry in entries)
@@ -117,7 +118,7 @@ def _content(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
 
 
 def check_images(files: Mapping[str, bytes]) -> None:
-    """Refuse images that are no PNG or of other sizes, before any is decoded."""
+    """Refuse images of another format or size before any is decoded."""
     sizes = {}
     for name in IMAGES:
         if name in files:

@@ -46,20 +46,20 @@ from occsim.world import world_from_image
 ERASED_LEVEL, SAME_LEVEL, ADDED_LEVEL = 0, 128, 255
 """Brightness in the picture of the corrections."""
 
-# Fixed, so that the same project gives the same bytes; the earliest that zip knows.
+# Fixed, so that the same project gives the same bytes; zip's earliest date.
 _DATE = (1980, 1, 1, 0, 0, 0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Project:
-    """What one file keeps.
+    """The content of one project file.
 
     Parameters
     ----------
     building : Building
         Drawing, walls, ground truth, trajectory, scale.
     settings : mapping of str to str
-        Whatever the application wants back, as text.
+        Settings of the application, as text.
     """
 
     building: Building
@@ -80,9 +80,9 @@ def dump_project(project: Project) -> bytes:
         A zip archive; the same project gives the same bytes.
     """
     building = project.building
-    told = _description(building, project.settings)
+    document = _description(building, project.settings)
     files = {
-        JSON_NAME: json.dumps(told, indent=1).encode("ascii"),
+        JSON_NAME: json.dumps(document, indent=1).encode("ascii"),
         DRAWING: drawing_png(building.drawing),
         FOUND: mask_png(building.walls_found),
         CORRECTIONS: _corrections_png(building.corrections),
@@ -110,7 +110,7 @@ def _corrections_png(corrections: Corrections) -> bytes:
 
 
 def _description(building: Building, settings: Mapping[str, str]) -> dict[str, Any]:
-    """Return what stands in the JSON."""
+    """Return the content of the JSON."""
     # The package imports its modules before it knows its version.
     from occsim import __version__
 
@@ -134,7 +134,7 @@ def _description(building: Building, settings: Mapping[str, str]) -> dict[str, A
 
 
 def load_project(source: bytes | str | Path, *, name: str | None = None) -> Project:
-    """Return the project in a file that `dump_project` wrote; nothing is trusted.
+    """Return the project in a file that `dump_project` wrote; all of it is checked.
 
     Parameters
     ----------
@@ -150,8 +150,8 @@ def load_project(source: bytes | str | Path, *, name: str | None = None) -> Proj
     Raises
     ------
     ProjectError
-        Where the file is no such archive, damaged, too large, of another version, or
-        a part or a value in it is out of bounds.
+        Where the file is not such an archive, is damaged, too large or of another
+        version, or where a part or a value in it is out of bounds.
     """
     data, file_name = read_source(
         source,
@@ -168,20 +168,20 @@ def load_project(source: bytes | str | Path, *, name: str | None = None) -> Proj
 
 
 def _project(files: Mapping[str, bytes]) -> Project:
-    told = read_values(files[JSON_NAME])
+    values = read_values(files[JSON_NAME])
     check_images(files)
     trajectory = load_trajectory(files[TRAJECTORY_NAME], name=TRAJECTORY_NAME)
     found = _mask(files, FOUND)
     building = Building(
-        drawing=_image(files, DRAWING, told.drawing_name),
+        drawing=_image(files, DRAWING, values.drawing_name),
         trajectory=trajectory,
         found=found,
-        corrections=_corrections(files, found, told.version),
+        corrections=_corrections(files, found, values.version),
         truth=_mask(files, TRUTH) if TRUTH in files else None,
-        tour=trajectory if told.is_planned else None,
-        **told.parts,
+        tour=trajectory if values.is_planned else None,
+        **values.parts,
     )
-    return Project(building=building, settings=told.settings)
+    return Project(building=building, settings=values.settings)
 
 
 def _image(files: Mapping[str, bytes], name: str, title: str) -> Drawing:
@@ -202,7 +202,7 @@ def _corrections(
     if needed == WALLS:
         return Corrections.between(found, _mask(files, WALLS))
     levels = _image(files, CORRECTIONS, CORRECTIONS).gray
-    # Half way between the levels, for those who painted in it.
+    # Thresholds half-way between the levels: users may have edited the picture.
     added = levels > (SAME_LEVEL + ADDED_LEVEL) // 2
     erased = levels < (SAME_LEVEL + ERASED_LEVEL) // 2
     return Corrections.from_masks(np.asarray(added), np.asarray(erased))

@@ -14,10 +14,10 @@ from occsim.walls import WallParams
 
 FORMAT = "occsim-project"
 VERSION = 2
-"""Of the layout that the package describes."""
+"""Version of the layout that the package describes."""
 
 VERSIONS = (1, VERSION)
-"""Those that are read."""
+"""Versions that can be read."""
 
 MAX_TEXT = 2000
 """Longest title or setting, characters."""
@@ -29,8 +29,8 @@ MAX_LENGTH_PX = 100_000.0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Told:
-    """What stands in the JSON, checked.
+class ProjectValues:
+    """The content of the JSON, checked.
 
     ``parts`` are arguments of `occsim.Building`; ``is_planned`` says whether the
     trajectory is the building's tour.
@@ -43,53 +43,53 @@ class Told:
     settings: Mapping[str, str]
 
 
-def read_values(content: bytes) -> Told:
-    """Return what stands in the JSON.
+def read_values(content: bytes) -> ProjectValues:
+    """Return the content of the JSON.
 
     Raises
     ------
     OccsimError
-        Where it is no JSON, or a value is of another type or out of its bounds.
+        Where it is not JSON, or a value is of another type or out of its bounds.
     """
-    told = _json(content)
-    _check_version(told)
-    door_px = _length(told, "door_px", MAX_LENGTH_PX)
-    return Told(
-        version=told["version"],
-        drawing_name=_text(told, "name"),
-        is_planned=told.get("is_planned") is True,
+    document = _json(content)
+    _check_version(document)
+    door_px = _length(document, "door_px", MAX_LENGTH_PX)
+    return ProjectValues(
+        version=document["version"],
+        drawing_name=_text(document, "name"),
+        is_planned=document.get("is_planned") is True,
         parts={
-            "wall_params": _wall_params(told.get("wall_params")),
-            "sensor": _sensor(told.get("sensor"), door_px),
-            "sketch": _sketch(told.get("sketch")),
+            "wall_params": _wall_params(document.get("wall_params")),
+            "sensor": _sensor(document.get("sensor"), door_px),
+            "sketch": _sketch(document.get("sketch")),
             "door_px": door_px,
-            "metres_per_px": _length(told, "metres_per_px", MAX_METRES_PER_PX),
-            "name": _text(told, "short_name"),
-            "title": _text(told, "title"),
-            "about": _text(told, "about"),
+            "metres_per_px": _length(document, "metres_per_px", MAX_METRES_PER_PX),
+            "name": _text(document, "short_name"),
+            "title": _text(document, "title"),
+            "about": _text(document, "about"),
         },
-        settings=_settings(told.get("settings")),
+        settings=_settings(document.get("settings")),
     )
 
 
 def written_text(text: str) -> str:
-    """Return a text as it can be read back: no half of a character, not too long."""
+    """Return a text that can be read back: valid Unicode and not too long."""
     return text.encode("utf-8", "replace").decode()[:MAX_TEXT]
 
 
 def _json(content: bytes) -> Mapping[str, Any]:
     """Return the object that the JSON holds."""
     try:
-        told = json.loads(content)
+        document = json.loads(content)
     except (ValueError, RecursionError):
         raise ProjectError(f"{JSON_NAME} must be JSON; it is not") from None
-    if not isinstance(told, dict):
+    if not isinstance(document, dict):
         raise ProjectError(f"{JSON_NAME} must hold an object; it does not")
-    return told
+    return document
 
 
-def _check_version(told: Mapping[str, Any]) -> None:
-    kind, version = told.get("format"), told.get("version")
+def _check_version(document: Mapping[str, Any]) -> None:
+    kind, version = document.get("format"), document.get("version")
     if kind != FORMAT:
         raise ProjectError(f"its format must be {FORMAT!r}; got {shown(kind)}")
     if type(version) is not int or version not in VERSIONS:
@@ -100,15 +100,15 @@ def _check_version(told: Mapping[str, Any]) -> None:
 
 
 def _is_text(value: object) -> bool:
-    """Whether a value is text that every encoder takes, and not too long."""
+    """Whether a value is text, can be encoded, and is not too long."""
     if not isinstance(value, str) or len(value) > MAX_TEXT:
         return False
-    # JSON may hold one half of a character beyond 16 bits.
+    # JSON may hold a lone surrogate.
     return not any("\ud800" <= character <= "\udfff" for character in value)
 
 
-def _text(told: Mapping[str, Any], key: str) -> str:
-    value = told.get(key, "")
+def _text(document: Mapping[str, Any], key: str) -> str:
+    value = document.get(key, "")
     if not _is_text(value):
         raise ProjectError(
             f"{key} must be text of at most {MAX_TEXT} whole characters; "
@@ -117,8 +117,8 @@ def _text(told: Mapping[str, Any], key: str) -> str:
     return str(value)
 
 
-def _length(told: Mapping[str, Any], key: str, highest: float) -> float | None:
-    value = told.get(key)
+def _length(document: Mapping[str, Any], key: str, highest: float) -> float | None:
+    value = document.get(key)
     if value is None:
         return None
     if not _is_number(value) or not 0 < value <= highest:
@@ -156,7 +156,7 @@ def _is_corner(value: object) -> bool:
 
 
 def _sensor(value: object, door_px: float | None) -> Sensor:
-    """Return the proposed sensor; of an old file, the one that the door proposes."""
+    """Return the proposed sensor; for an old file, the one that fits the door."""
     if value is None:
         return Sensor() if door_px is None else Sensor(range_px=door_px)
     checked = _parameters(value, "sensor", Sensor)
@@ -171,7 +171,7 @@ def _wall_params(value: object) -> WallParams:
 
 
 def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
-    """Return values by the names and types of a class; it checks bounds itself."""
+    """Return values by the names and types of a class, which checks their bounds."""
     kinds = {item.name: item.type for item in fields(kind)}
     if not isinstance(value, dict) or not set(value) <= set(kinds):
         raise ProjectError(f"{what} must hold only {', '.join(kinds)}")
@@ -190,7 +190,7 @@ def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
 
 
 def _settings(value: object) -> Mapping[str, str]:
-    """Return the application's settings; it checks itself what they mean."""
+    """Return the application's settings; the application checks their meaning."""
     if (
         not isinstance(value, dict)
         or len(value) > MAX_SETTINGS

@@ -1,8 +1,8 @@
 """Trajectory files: CSV and plain text, NPY, MAT, JSON and TUM, each way.
 
 Positions in a file are px in the image frame, headings degrees or radians as the file
-says. Metric frames with y up are for :mod:`occsim.io.metric`. Files are hostile
-until checked, and every failure is a `TrajectoryError` of one sentence.
+says. Metric frames with y up are for :mod:`occsim.io.metric`. Files are not trusted,
+and every failure is a `TrajectoryError` of one sentence.
 """
 
 from occsim.io.trajectories.dump import TrajectoryFormat, dump_trajectory

@@ -111,7 +111,7 @@ def parse_json(data: bytes, name: str) -> TrajectoryTable:
 
 
 def _check_json_size(data: bytes, name: str) -> None:
-    """Refuse what would take several times its size in memory, before it is parsed."""
+    """Refuse, before parsing, a file that would take too much memory."""
     n_lists = max(data.count(b"["), data.count(b"{"))
     if (
         len(data) > MAX_JSON_BYTES
@@ -168,7 +168,7 @@ def _json_number(value: Any, k: int, name: str) -> float:
 
 
 def _short(value: object) -> str:
-    """Return a value as it can be quoted; lists may be nested without end."""
+    """Return a value that can be quoted; lists may be nested deeply."""
     if isinstance(value, list | dict):
         return f"a {'list' if isinstance(value, list) else 'object'} of {len(value)}"
     return printable(json.dumps(value)[:40])

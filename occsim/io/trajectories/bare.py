@@ -1,4 +1,4 @@
-"""Poses from tables without titles, told by the number of their columns.
+"""Poses from tables without titles, recognised by the number of columns.
 
 Three are x, y, theta; eight are the TUM format's; twelve are KITTI's.
 """
@@ -12,10 +12,10 @@ from occsim.io.trajectories.columns import PoseColumns
 TUM_COLUMNS = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
 _TUM = PoseColumns(indices=(1, 2, 4, 5, 6, 7))
 _LENGTH_OFF = 0.02
-"""How far a quaternion's length may be from one, or a rotation's rows: files have
-three digits and more."""
+"""How far the length of a quaternion, or of a rotation's rows, may differ from one:
+files have three digits or more."""
 _FLAT = 0.05
-"""Sine of half the tilt of a robot that stands upright, at most."""
+"""Largest sine of half the tilt of a robot that counts as upright."""
 
 
 def bare_columns(n_fields: int, where: str, got: str) -> PoseColumns:
@@ -26,12 +26,12 @@ def bare_columns(n_fields: int, where: str, got: str) -> PoseColumns:
     n_fields : int
         Columns in the table.
     where, got : str
-        Where its first row stands, and the row, for the message.
+        Position of the first row, and the row itself, for the message.
 
     Returns
     -------
     PoseColumns
-        Of a KITTI file, all twelve as they stand.
+        For a KITTI file, all twelve in order.
 
     Raises
     ------
@@ -100,13 +100,14 @@ def _check_quaternions(
     if bad.size:
         raise TrajectoryError(
             f"{name}, line {line_numbers[bad[0]]}: the quaternion qx qy qz qw must "
-            f"have length 1; got {length[bad[0]]:.3g}; of other columns than the TUM "
-            "format's eight a header has to give the names"
+            f"have length 1; got {length[bad[0]]:.3g}; eight columns other than the "
+            "TUM format's need a header with their names"
         )
-    # Upright, x and y of the axis are zero. Written with qw first, they come later.
+    # Of an upright robot, x and y of the axis are zero. With qw first they are one
+    # column later.
     if not _is_flat(quaternions[:, :2]) and _is_flat(quaternions[:, 1:3]):
         raise TrajectoryError(
-            f"{name}: the quaternions seem to have qw first; a header has to give the "
+            f"{name}: the quaternions seem to have qw first; add a header with the "
             "names (timestamp tx ty tz qw qx qy qz)"
         )
 

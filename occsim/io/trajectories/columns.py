@@ -1,4 +1,4 @@
-"""Where x, y and the heading stand in a table, by the titles of its columns."""
+"""Find x, y and the heading in a table by the titles of its columns."""
 
 import re
 from collections.abc import Sequence
@@ -27,8 +27,8 @@ _NAMES = {
     **dict.fromkeys(("bearing", "orientation", "direction", "rotation"), "theta"),
     **{axis: axis for axis in ("qx", "qy", "qz", "qw")},
 }
-# Of titles of several words, as ROS, PlotJuggler and EuRoC write them: what the last,
-# x, y, z or w, is part of; what is no part of a pose; what says nothing.
+# Titles of several words, as in ROS, PlotJuggler and EuRoC: words that say what the
+# last one (x, y, z or w) belongs to; words that exclude a pose; words without meaning.
 _POSITION = {"p", "pos", "position", "t", "trans", "translation", "pose", "location"}
 _QUATERNION = {"q", "quat", "quaternion", "orientation", "rot", "rotation"}
 _OTHER = {
@@ -75,7 +75,7 @@ class PoseColumns:
     def units(self) -> dict[str, str]:
         """Units of what `poses` gives, by axis.
 
-        Quaternions are robots', and robots count in metres unless they say otherwise.
+        Quaternions come from robots, whose positions are in metres unless stated.
         """
         length = "m" if self.length in METRES else self.length
         if self.is_turned:
@@ -132,7 +132,7 @@ def column_axis(title: str) -> tuple[str, str]:
 
 
 def _part(words: list[str]) -> str:
-    """Return the axis that the last of several words is."""
+    """Return the axis that the last of several words names."""
     if len(words) < 2 or set(words) & _OTHER:
         return ""
     *before, last = words

@@ -20,7 +20,7 @@ class TrajectoryFormat(Enum):
     TXT = "txt"
     """Separated by spaces, the header as a comment."""
     NPY = "npy"
-    """A NumPy array of shape (S, 3); says nothing of units."""
+    """A NumPy array of shape (S, 3); it does not state units."""
     MAT = "mat"
     """MATLAB 5: an array of shape (S, 3), ``trajectory_rad`` or ``trajectory_deg``."""
     JSON = "json"
@@ -75,7 +75,7 @@ def _tum(table: FloatArray, _angle: str) -> bytes:
     half = 0.5 * theta
     time_s = np.arange(len(table), dtype=np.float64)
     columns = [time_s, x, y, zero, zero, zero, np.sin(half), np.cos(half)]
-    # Without units a reader, ours too, takes the numbers for metres.
+    # Without units, readers assume metres; so does this library's.
     header = "# timestamp tx_px ty_px tz_px qx qy qz qw"
     return _lines([header], np.stack(columns, axis=1), " ")
 

@@ -51,8 +51,8 @@ def load_trajectory(
     TrajectoryError
         Where the file is missing, empty, over 20 MB or 50,000 poses, damaged or of
         another format; where a row has too few columns, a word, NaN or an infinite
-        number; where positions are in metres and no frame is given; where the
-        headings' unit has to be asked for.
+        number; where positions are in metres and no frame is given; where the unit of
+        the headings is unknown.
 
     Notes
     -----
@@ -74,7 +74,7 @@ def load_trajectory(
 def read_trajectory_table(
     source: bytes | str | Path, *, name: str | None = None
 ) -> TrajectoryTable:
-    """Return the numbers of a trajectory file, and what it says of their units.
+    """Return the numbers of a trajectory file, and the units that it states.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def read_trajectory_table(
     Returns
     -------
     TrajectoryTable
-        Its `needs_angle_unit` tells whether to ask for degrees or radians.
+        Its `needs_angle_unit` says whether the user must be asked for the unit.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """Poses from MATLAB files of version 4 to 7.
 
-Read here and not by SciPy, whose reader trusts the lengths that a file announces: a few
-changed bytes end the whole process. Only what a trajectory needs is understood,
-full real matrices at the top level (of version 4, little-endian).
+Read here and not by SciPy, whose reader trusts the lengths stated in a file: a few
+changed bytes can crash the process. Only full real matrices at the top level are read
+(of version 4, little-endian ones).
 """
 
 import itertools
@@ -52,7 +52,7 @@ _MAT4_TYPES = ("f8", "f4", "i4", "i2", "u2", "u1")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Variable:
-    """A matrix, its elements not yet read."""
+    """A matrix whose elements are not read yet."""
 
     name: str
     shape: tuple[int, ...]

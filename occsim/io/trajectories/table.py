@@ -1,4 +1,4 @@
-"""What a trajectory file says: numbers, and what is known of their units."""
+"""The content of a trajectory file: numbers, and what is known about their units."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -20,7 +20,7 @@ MAX_POSITION = 1e9
 """Largest coordinate, in px or m; sums and squares of it are still exact enough."""
 
 MAX_HEADING = 1e6
-"""Largest heading, in radians or degrees: beyond, a float has no exact turn left."""
+"""Largest heading, in radians or degrees: floats beyond it do not resolve a turn."""
 
 # A heading may be written as a full turn; text rounds it.
 _FULL_TURN_RAD = 2.0 * np.pi + 1e-3
@@ -28,7 +28,7 @@ _FULL_TURN_RAD = 2.0 * np.pi + 1e-3
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TrajectoryTable:
-    """The poses of a file as they stand in it.
+    """The poses of a file, unconverted.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ class TrajectoryTable:
     metres : bool
         Whether the file says that positions are in metres, y up.
     pixels : bool
-        Whether it says that they are in px; where it says neither, they are taken for
-        px too, unless a frame is given.
+        Whether it says that they are in px; where it says neither, px are assumed,
+        unless a frame is given.
     name : str
         What to call the file.
     """
@@ -54,7 +54,7 @@ class TrajectoryTable:
 
     @property
     def needs_angle_unit(self) -> bool:
-        """Whether somebody has to be asked for the unit of the headings."""
+        """Whether the user must be asked for the unit of the headings."""
         return self.degrees is None
 
     def to_trajectory(
@@ -142,7 +142,7 @@ def table_from(values: FloatArray, units: dict[str, str], name: str) -> Trajecto
     """
     check_count(len(values), name)
     limits = [MAX_POSITION, MAX_POSITION, MAX_HEADING]
-    good = (np.abs(values) <= limits).all(axis=1)  # NaN is not
+    good = (np.abs(values) <= limits).all(axis=1)  # also false for NaN
     if not good.all():
         row = int(np.argmin(good))
         raise TrajectoryError(
@@ -185,7 +185,7 @@ def check_count(n_poses: int, name: str) -> None:
 
 
 def check_array(shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> None:
-    """Refuse an array that is no table of poses, by its header alone.
+    """Refuse an array whose header shows that it is not a table of poses.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def check_array(shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> None
     ------
     TrajectoryError
     """
-    # To NumPy's header, True is a number of rows.
+    # NumPy's header accepts True as a number of rows.
     if len(shape) != 2 or shape[1] != 3 or isinstance(shape[0], bool):
         raise TrajectoryError(
             f"the array in {name} must have shape (S, 3), rows of x, y, theta; "

@@ -21,7 +21,7 @@ from occsim.io.trajectories.table import (
 )
 
 MAX_LINES = 4 * MAX_POSES
-"""Most lines in a text file, comments and empty ones among them."""
+"""Most lines in a text file, including comments and empty ones."""
 
 MAX_LINE_BYTES = 10_000
 """Longest line, bytes."""
@@ -29,9 +29,9 @@ MAX_LINE_BYTES = 10_000
 COMMENT_MARKS = (b"#", b"%", b"//")
 _MAX_COMMENTS = 100
 _BOM_8, _BOMS_16 = b"\xef\xbb\xbf", (b"\xff\xfe", b"\xfe\xff")
-# A quotation longer than this, from hostile bytes, is cut.
+# Longer quotations in messages are cut.
 _QUOTE_LENGTH = 20
-# 1,234 may be a little over one, or a thousand and more.
+# 1,234 may be 1.234 or 1234.
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 
 Line = tuple[int, str]
@@ -39,7 +39,7 @@ Line = tuple[int, str]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Layout:
-    """How the lines of a file are to be read."""
+    """How the lines of a file are read."""
 
     delimiter: str | None  # None: white space
     decimal_comma: bool
@@ -62,7 +62,7 @@ class _Layout:
 
 @dataclass(eq=False)
 class _Commas:
-    """Whether the commas of a file separate decimals, as far as it shows."""
+    """Whether the commas of a file are decimal commas, if that can be decided."""
 
     doubtful: tuple[int, str] | None = None
     are_decimal: bool = False
@@ -109,7 +109,7 @@ class _Reader:
             fields = self.layout.split(text)
         except csv.Error as error:
             raise TrajectoryError(
-                f"{self.name}, line {line} is no row of a table ({error})"
+                f"{self.name}, line {line} is not a row of a table ({error})"
             ) from None
         needed = self.n_fields or max(self.columns.indices) + 1
         if len(fields) < needed or (self.n_fields and len(fields) > needed):
@@ -193,7 +193,7 @@ def decode(data: bytes, name: str) -> str:
     Raises
     ------
     TrajectoryError
-        Where the bytes are no text.
+        Where the bytes are not text.
     """
     return _text(_as_utf8(data, name))
 
@@ -247,7 +247,7 @@ def _lines(data: bytes, name: str) -> tuple[list[tuple[int, bytes]], list[Line]]
 
 
 def _layout(lines: list[str]) -> _Layout:
-    """Tell the delimiter by the first line of numbers, else by the first line."""
+    """Find the delimiter in the first line of numbers, else in the first line."""
     line = next((text for text in lines if text[0] in "+-.0123456789"), lines[0])
     words = line.split()
     if ";" in line:
@@ -265,8 +265,8 @@ def _header(
 ) -> tuple[list[str], bool]:
     """Return the titles of the columns, and whether the first line gives them.
 
-    A comment does where it names the columns, or where it is a row of as many fields
-    as the table and not a sentence.
+    A comment counts as the header where it names the columns, or where it has as many
+    fields as the table and is not a sentence.
     """
     if not any(_number(layout.number(text)) is not None for text in first):
         return first, True

@@ -1,4 +1,4 @@
-"""Streamlit components made of files: html, css and scripts, the shared ones first."""
+"""Streamlit components built from files: html, css and scripts, shared ones first."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -17,7 +17,7 @@ def component(
     """Return the component `name`; its html and css are named after the folder.
 
     Registered on each run: a registry lives as long as its server, which in tests is
-    shorter than this module. The same definition again costs and says nothing.
+    shorter than this module. Registering the same definition again has no effect.
     """
     return st.components.v2.component(name, **_sources(folder, scripts))
 
@@ -26,8 +26,8 @@ def packed(header: Mapping[str, object], *payloads: bytes) -> bytes:
     """Return header and payloads as one string of bytes, the one way to send bytes.
 
     Four bytes with the length of the header (little-endian), the header (JSON, UTF-8,
-    with the payloads' sizes), the payloads. ``readPacked`` in ``shared/bytes.js`` takes
-    them apart.
+    with the payloads' sizes), the payloads. ``readPacked`` in ``shared/bytes.js``
+    unpacks them.
     """
     sized = {**header, "sizes": [len(payload) for payload in payloads]}
     encoded = json.dumps(sized, separators=(",", ":"), allow_nan=False).encode()

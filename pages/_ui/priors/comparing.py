@@ -86,7 +86,7 @@ def verdict(count: list[list[int]], runs: dict[str, Run], tolerance: float) -> s
 
 
 def worst_gap(runs: dict[str, Run], prior: Prior) -> float:
-    """The tolerance at which a prior is near every front; NaN if at none."""
+    """The smallest tolerance at which a prior is near every front; NaN if none is."""
     gaps = [fronts.distance(run.front, run.scores(prior)) for run in runs.values()]
     return float("nan") if any(gap != gap for gap in gaps) else max(gaps)
 

@@ -17,7 +17,7 @@ def one_front(run: Run) -> None:
     """A front, its pairs, and the map of the chosen pair; then others to compare."""
     front = run.front
     chart, space, side = st.columns([5, 4, 4], gap="medium")
-    # The map first: it is what a click waits for.
+    # The map first: after a click the user waits for it.
     with side:
         maps.chosen_map(run)
         maps.against_uninformative(run, state.prior())
@@ -119,7 +119,7 @@ def _choices(run: Run) -> None:
 
 
 def _where(run: Run) -> str:
-    """Which pair is recommended, and where the chosen one stands."""
+    """Which pair is recommended, and how far the chosen one is from the front."""
     front, min_recall = run.front, state.settings().min_recall
     best = recommend(front, min_recall)
     if best is None:

@@ -24,7 +24,7 @@ WORDS = {
     FrontAxes.SCORES: ("recall, %", "precision, %"),
     FrontAxes.INVERSE: ("1/precision", "1/recall"),
 }
-# The best that each point allows, drawn to its next: nothing lies between two points.
+# The border is a staircase: nothing is attained between two points.
 STEPS = {FrontAxes.SCORES: "vh", FrontAxes.INVERSE: "hv"}
 
 
@@ -59,7 +59,7 @@ def front_figure(
     """The exact front; full points are those of set C, a click chooses one."""
     shown = [mark for mark in marks if mark.precision > 0.0 and mark.recall > 0.0]
     figure = go.Figure(front_steps(front, axes, palette.SERIES[0], "exact front"))
-    # The points last, on top: they are what is clicked.
+    # The points last, so that they lie on top and can be clicked.
     figure.add_traces([mark_trace(mark, axes) for mark in shown])
     figure.add_trace(front_points(front, axes, min_recall))
     threshold(figure, axes, min_recall)
@@ -131,7 +131,7 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
         marker=marker,
         selected={"marker": {"opacity": 1}},
         unselected={"marker": {"opacity": 1}},
-        # A ring lies around its point and must leave the pointer to it.
+        # A ring lies around its point and must not catch the pointer.
         hoverinfo="skip" if is_ring else None,
         hovertemplate=None if is_ring else about,
         cliponaxis=False,
@@ -139,7 +139,7 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
 
 
 def threshold(figure: go.Figure, axes: FrontAxes, min_recall: float) -> None:
-    """A line at the recall that set C demands; out of sight if all points have it."""
+    """A line at the smallest recall of set C; not drawn if all points exceed it."""
     if min_recall <= 0.0:
         return
     x, y = place(axes, 1.0, min_recall)
@@ -206,7 +206,7 @@ def prior_space_figure(
 
 
 def _rectangles(rows: list[list[float]]) -> go.Scatter:
-    # One outline after another; None lifts the pen.
+    # One outline after another; None separates them.
     x: list[float | None] = []
     y: list[float | None] = []
     for bottom, top, left, right in rows:

@@ -1,4 +1,4 @@
-"""What the pages say of a front: where a map stands on it, how far from it."""
+"""How maps relate to a front: the nearest point, and the distance from it."""
 
 from occsim import Scores
 from occsim.priors import ParetoFront
@@ -25,7 +25,7 @@ def distance(front: ParetoFront, scores: Scores) -> float:
 
 
 def nearest(front: ParetoFront, scores: Scores) -> int:
-    """The point of a front that is most like a map; the first if that is undefined."""
+    """The front point nearest to a map's scores; the first if they are undefined."""
     here = scores.precision, scores.recall
     if here[0] != here[0] or here[1] != here[1]:
         return 0

@@ -30,7 +30,7 @@ def recommended(run: Run) -> Prior | None:
 
 
 def handed_over(run: Run) -> Prior:
-    """The prior that the path ends in: recommended, or chosen by hand."""
+    """The prior that the path recommends, or the one chosen by hand."""
     best = recommended(run)
     if state.settings().handover is Handover.CHOSEN or best is None:
         return state.prior()
@@ -38,14 +38,14 @@ def handed_over(run: Run) -> Prior:
 
 
 def drawing(run: Run) -> None:
-    """Step 1: what the architect gave."""
+    """Step 1: the architect's drawing."""
     building = run.building
     height, width = building.drawing.shape
     _head(1, f"Drawing: {words.plain(building.title)}")
     st.image(drawing_png(building.drawing), width="stretch", alt="The drawing")
     st.caption(
-        f"{width} x {height} px. Choose another above, or bring your own on the page "
-        "*Your building*."
+        f"{width} x {height} px. Choose another above, or upload your own on the "
+        "page *Your building*."
     )
 
 
@@ -118,10 +118,11 @@ def best_map(run: Run, prior: Prior) -> None:
     maps.against_uninformative(run, prior)
     if prior.p_wall > prior.p_space:
         st.caption(
-            "Take care: this is the negative of the drawing. It calls wall cells freer "
-            "than the others. It can win where the prior is taken off at every "
-            "reading, which pushes a cell away from its prior from the second reading "
-            "on; no map should start from it. Compare with *Count the drawing once*."
+            "Caution: this prior is the negative of the drawing. It gives wall "
+            "cells a higher probability of free than the others. It can win where "
+            "the prior is subtracted at every reading, which pushes a cell away "
+            "from its prior from the second reading on; no map should start from "
+            "it. Compare with *Count the drawing once*."
         )
     st.button(
         "Use this pair on every page",
@@ -162,7 +163,7 @@ def prior_map(run: Run, prior: Prior) -> None:
 
 
 def chosen_on(run: Run, prior: Prior) -> dict[str, Plain]:
-    """What the pair was chosen on, for the settings file."""
+    """The conditions under which the pair was chosen, for the settings file."""
     settings, scores = run.settings, run.scores(prior)
     best = prior == recommended(run)
     return {

@@ -35,7 +35,7 @@ def score_line(scores: Scores) -> str:
 
 
 def difference_line(scores: Scores, reference: Scores) -> str:
-    """How far the scores lie from those of another map."""
+    """Differences of the scores from those of another map."""
     return ", ".join(
         f"{name} {points(getattr(scores, name) - getattr(reference, name))}"
         for name in ("precision", "recall", "f2")
@@ -65,7 +65,7 @@ def map_of(run: Run, prior: Prior, title: str, kind: Picture) -> None:
 
 
 def against_uninformative(run: Run, prior: Prior) -> None:
-    """How far a map's scores lie from those of the map without a drawing."""
+    """Differences of a map's scores from those of the map without a drawing."""
     if prior == Prior.uninformative():
         st.caption("The map without a drawing.")
         return

@@ -15,10 +15,10 @@ from pages._ui.priors.surface_figures import Pair
 
 SEARCH_PX = 540
 BELOW = -0.17
-"""Where the buttons stand, as a share of the plot's height below it."""
+"""Position of the buttons below the plot, as a share of its height."""
 FRAME_MS = 120
 POPULATION = palette.SERIES[1]
-# Traces that a frame replaces: promised, real, and the mark on the curve.
+# Traces that a frame replaces: scores used, real scores, and the mark on the curve.
 MOVING = [2, 3, 5]
 
 
@@ -63,7 +63,7 @@ def _dots(front: ParetoFront, axes: FrontAxes) -> go.Scatter:
 
 
 def _population(step: SearchStep | None, axes: FrontAxes) -> list[go.Scatter]:
-    """What the search was promised, and what the maps of its pairs score."""
+    """The scores that the search used, and the real scores of its pairs."""
     if step is None:
         return [go.Scatter(), go.Scatter()]
     promised, real = step.seen, step.real
@@ -178,7 +178,7 @@ def _slider(steps: list[SearchStep]) -> dict[str, Any]:
         "pad": {"t": 36},
         "ticklen": 0,
         "minorticklen": 0,
-        # The labels of the steps are for the text above the slider alone.
+        # The labels of the steps appear only in the text above the slider.
         "font": {"size": 1, "color": "rgba(0,0,0,0)"},
         "currentvalue": {
             "prefix": "generation ",

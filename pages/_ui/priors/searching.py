@@ -39,8 +39,8 @@ def search(run: Run) -> None:
             figure = search_figures.still_figure([], run.front, settings.axes)
             place.plotly_chart(figure, config=CHART_CONFIG, key="bare")
             st.caption(
-                "No search was run yet. Below the front stands then the hypervolume, "
-                "generation by generation."
+                "No search has been run yet. After a run, the hypervolume by "
+                "generation is shown below the front."
             )
     _words()
 
@@ -92,8 +92,8 @@ def _summary(steps: list[SearchStep], settings: Settings) -> str:
         text = f"Stopped. {text}"
     if settings.objectives is Objectives.INTERPOLATED:
         text += (
-            " Hollow triangles: what the interpolated table promised. Full: what the "
-            "maps of these pairs really score."
+            " Hollow triangles: scores in the interpolated table. Full: scores of "
+            "the maps of these pairs."
         )
     return text
 
@@ -112,8 +112,9 @@ def _words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "It can: between the 10 × 10 pairs the table is a guess, and hollow "
-                "triangles may lie beyond the front. No full triangle ever does."
+                "It can: between the 10 × 10 pairs the table is an interpolation, "
+                "and hollow triangles may lie beyond the front. No full triangle "
+                "ever does."
             )
     with why:
         st.markdown(

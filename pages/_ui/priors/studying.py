@@ -59,7 +59,7 @@ def drawings() -> list[Building]:
 
 
 def run_all() -> list[StudyCase]:
-    """Every drawing at every cell size; those that cannot be studied say why."""
+    """Every drawing at every cell size, and why a drawing is left out."""
     bar = st.progress(0.0, "Studying the drawings")
     pairs = [(drawing, px) for drawing in drawings() for px in SOURCE_CELLS_PX]
     cases, refused = [], {}
@@ -76,7 +76,7 @@ def run_all() -> list[StudyCase]:
 
 
 def findings(cases: list[StudyCase]) -> None:
-    """How far the source's pattern appears, as it comes out."""
+    """Sentences on how far the source's pattern appears."""
     see, why = st.columns(2, gap="large")
     with see:
         st.markdown("**Does the published pattern appear?**")
@@ -84,11 +84,10 @@ def findings(cases: list[StudyCase]) -> None:
             st.markdown(f"- {line}")
     with why:
         st.markdown(
-            "**How to read this.** The source's five drawings are not ours to use: "
-            "these are of the same kinds, so only the pattern can be compared. In the "
-            f"source, recall peaks with {words.maths('p_space')} = 1, precision with a "
-            f"low {words.maths('p_space')}, and "
-            "no pair has both."
+            "**How to read this.** The source's five drawings may not be used here. "
+            "Ours are of the same kinds, so only the pattern can be compared. In "
+            f"the source, recall peaks with {words.maths('p_space')} = 1, precision "
+            f"with a low {words.maths('p_space')}, and no pair has both."
         )
 
 

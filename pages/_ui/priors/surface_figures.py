@@ -19,7 +19,7 @@ COLUMN_GAP = 0.12
 TICKS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
 TEN_PERCENT = 10.0
 
-# Where a score is undefined the picture has a hole, and this shows through it.
+# Shown where a score is undefined: the heatmap is transparent there.
 _HATCH = f"""<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">
 <defs><pattern id="h" width="10" height="10" patternUnits="userSpaceOnUse">
 <rect width="10" height="10" fill="{palette.UNSEEN}"/>
@@ -182,7 +182,7 @@ def _mark(pairs: list[Pair], name: str, marker: dict) -> go.Scatter:
 
 
 def target_layer(view: SurfaceView) -> go.Scatter:
-    """What of a surface can be pointed at and clicked."""
+    """The points of a surface that react to pointer and click."""
     values, texts = view.targets()
     return pair_targets(values, [f"{view.objective.value} {text}" for text in texts])
 
@@ -205,7 +205,7 @@ def pair_targets(values: list[float], texts: list[str]) -> go.Scatter:
 
 
 def square_axes(figure: go.Figure, view: SurfaceView) -> None:
-    """The axes of a surface, and what lies under it."""
+    """The axes of a surface, and its background."""
     half = (view.values[1] - view.values[0]) / 2
     low, high = LOW - half, HIGH + half
     square_axes_of(figure, low, high)
@@ -227,7 +227,7 @@ def square_axes_of(figure: go.Figure, low: float, high: float) -> None:
 
 
 def hatch_image(low: float, high: float) -> dict:
-    """What lies under a surface."""
+    """The background of a surface."""
     size = {"x": low, "y": high, "sizex": high - low, "sizey": high - low}
     where = {"xref": "x", "yref": "y", "sizing": "stretch", "layer": "below"}
     return {"source": HATCH, **size, **where}

@@ -13,7 +13,7 @@ from pages._ui.settings import Settings
 UNDEFINED = "undefined: nothing declared occupied"
 LOW, HIGH = 0.1, 1.0
 FINEST_TARGET = 0.02
-"""Pairs closer than this cannot be told apart by a pointer on a small chart."""
+"""Pairs closer than this cannot be pointed at separately on a small chart."""
 
 
 def axis(step: float) -> list[float]:
@@ -55,7 +55,7 @@ class SurfaceView:
         return any(v != v for row in self.percent.tolist() for v in row)
 
     def targets(self) -> tuple[list[float], list[str]]:
-        """What can be pointed at: values of both axes; by row, what stands there."""
+        """Points for the pointer: both axes and, row by row, the text of each."""
         step = self.values[1] - self.values[0]
         every = max(1, round(FINEST_TARGET / step))
         rows = self.percent[::every, ::every].tolist()

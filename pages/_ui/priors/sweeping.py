@@ -22,7 +22,7 @@ def pairs(of: Maxima | ParetoFront) -> list[tuple[float, float]]:
 def one_drawing(run: Run) -> None:
     """Both surfaces of one drawing, and the map of the chosen pair."""
     *charts, side = st.columns([4, 4, 4], gap="medium")
-    # The map first: it is what a click waits for.
+    # The map first: after a click the user waits for it.
     with side:
         maps.chosen_map(run)
         with st.container(horizontal=True):
@@ -74,7 +74,7 @@ def all_drawings() -> None:
 
 
 def sizes(run: Run) -> None:
-    """The maxima of one drawing for the source's three cell sizes, and words."""
+    """The maxima of one drawing for the source's three cell sizes, explained."""
     settings, building = state.settings(), run.building
     runs = {
         f"{cell_px} px": compute.run(
@@ -105,7 +105,7 @@ def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
 
 
 def _see() -> str:
-    """What the colours of this view mean, and what can be done with it."""
+    """What the colours of this view mean, and how to use it."""
     settings = state.settings()
     if settings.surface is Surface.DIFFERENCE:
         colours = (
@@ -137,5 +137,5 @@ def explain(run: Run) -> None:
     st.markdown(
         "**Why so fast?** What a reading says does not depend on the prior, so the "
         f"{run.evidence.n_readings} readings are simulated once. Wall cells then "
-        f"answer to {words.maths('p_wall alone and all others to p_space alone')}."
+        f"depend on {words.maths('p_wall alone and all others on p_space alone')}."
     )

@@ -1,8 +1,8 @@
-"""The only room that touches ``st.session_state``.
+"""The only package that touches ``st.session_state``.
 
-One student's state is small: the `Settings`, which drawing is chosen, the building of
-their own if they brought one, a message about the last thing that went wrong, and what
-the components on the page were last sent. Everything else is computed from these.
+One student's state is small: the `Settings`, which drawing is chosen, their own
+building if they uploaded one, a message about the last failure, and the data last sent
+to the components on the page. Everything else is computed from these.
 """
 
 from pages._ui.state.chosen import (

@@ -1,4 +1,4 @@
-"""What the page "Your building" keeps of its boards and its table between runs."""
+"""State of the boards and the table of the page "Your building" between runs."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -31,7 +31,8 @@ def _take_wall(field: str, key: str, change: Callable[[str, Any], None]) -> None
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """The table of poses: what its editor was given, of what, and what it last held.
+    """The table of poses: the values given to its editor, their trajectory, and its
+    last values.
 
     An editor keeps its edits only while it is on the screen and is given the same
     values again; `rev` is new whenever it is given others.
@@ -49,10 +50,10 @@ class Table:
 
 
 def table(columns: Callable[[Trajectory], Columns]) -> Table:
-    """What the table of poses starts from.
+    """The values that the table of poses starts from.
 
-    The trajectory as it is now, where the table was left and entered again, or where
-    the trajectory was changed elsewhere.
+    They are taken from the current trajectory where the table was left and entered
+    again, or where the trajectory was changed elsewhere.
     """
     state = st.session_state
     held: Table | None = state.get("table")
@@ -70,19 +71,19 @@ def table_is_new(edited: Columns) -> bool:
 
 
 def take_table(trajectory: Trajectory) -> None:
-    """Take over the trajectory of an edited table, which stays as it is."""
+    """Use the trajectory of an edited table; the table stays as it is."""
     edit_building(trajectory=trajectory)
     st.session_state.table = replace(st.session_state.table, source=trajectory)
 
 
 def note_table(edited: Columns) -> None:
-    """Note what the table holds, so that it is taken, or complained of, once."""
+    """Note what the table holds, so that it is used, or refused, only once."""
     st.session_state.table = replace(st.session_state.table, last=edited)
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A drawing board: the document imposed on it, what it holds now, and of what."""
+    """A drawing board: its imposed and current documents, and the parts it shows."""
 
     imposed: BoardDocument
     current: BoardDocument
@@ -94,9 +95,9 @@ def board_document(
 ) -> BoardDocument:
     """What a board starts from; the same object until it must change from outside.
 
-    It must where the parts of the building that it shows are other objects than the
-    board's own edits left, and where it comes back to the screen (Streamlit forgets the
-    state of what was not drawn in the last run).
+    It must change where the parts of the building that it shows were replaced by
+    anything but the board's own edits, and where the board returns to the screen
+    (Streamlit drops the state of elements that were not drawn in the last run).
     """
     boards = st.session_state.setdefault("boards", {})
     held = boards.get(key)
@@ -116,21 +117,22 @@ def _are_same(a: Source, b: Source) -> bool:
 
 
 def committed(key: str, mode: BoardMode) -> BoardDocument | None:
-    """What the last commit of a board says, for use in its callback."""
+    """The last commit of a board, for use in its callback."""
     says = st.session_state.get(key, {}).get("committed")
     return decode_commit(says, st.session_state.boards[key].imposed, mode)
 
 
 def on_board(key: str) -> BoardDocument:
-    """What a board holds now."""
+    """The current document of a board."""
     return st.session_state.boards[key].current
 
 
 def note(key: str, drawn: BoardDocument, source: Source) -> None:
-    """Note what a board holds, and the parts of the building that this is.
+    """Note the current document of a board, and the parts of the building that it
+    equals.
 
-    Part of the edit that brings it to the building: an edit that is cut short is done
-    again as a whole.
+    Part of the edit that copies it to the building: an interrupted edit is repeated as
+    a whole.
     """
     boards = st.session_state.boards
     boards[key] = replace(boards[key], current=drawn, source=source)

@@ -1,4 +1,4 @@
-"""What a student has chosen: the settings, the drawing, and the link that says so."""
+"""A student's choices: the settings, the drawing, and the link that holds them."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -25,9 +25,9 @@ OPENING = "b"
 """The drawing that the app opens with: a shelf and a balcony are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
 GONE = (
-    "The building of this link is no longer on this server: it has been restarted, or "
-    "the building was kept too long ago. Open your project file on the page Your "
-    "building to go on; the settings of the link are used."
+    "The building of this link is no longer on this server: the server was "
+    "restarted, or the building has expired. Open your project file on the page "
+    "Your building to continue; the settings of the link are used."
 )
 
 
@@ -36,14 +36,14 @@ def prepare(path: str) -> None:
     state = st.session_state
     if "settings" not in state:
         _open_link(path, st.query_params.to_dict())
-    # A component that leaves the screen forgets what it knew.
+    # A component that leaves the screen loses its state.
     if state.get("path") != path:
         state.path = path
         forget_player()
 
 
 def _open_link(path: str, query: Mapping[str, str]) -> None:
-    """Start a session where a link says; it is read once."""
+    """Start a session from a link; it is read once."""
     state = st.session_state
     state.own, state.work = None, None
     state.message, state.generation = "", 0
@@ -65,8 +65,8 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     go_to_place(query)
     if wrong:
         notices.append(
-            f"The link gives no usable value for {', '.join(wrong)}; there the "
-            "defaults are used."
+            f"The link gives no usable value for {', '.join(wrong)}; the defaults "
+            "are used instead."
         )
     state.link_notice = path, " ".join(notices)
 
@@ -91,30 +91,30 @@ def settings() -> Settings:
 
 
 def change(**changes: Any) -> None:
-    """Replace some settings; what the player shows follows if it is concerned."""
+    """Replace some settings; the player follows if it shows one of them."""
     st.session_state.settings = with_changes(settings(), changes)
     if any(name in SHARED for name in changes):
         forget_player()
 
 
 def reset_all() -> None:
-    """Return to what the chosen drawing opens with; a building of one's own is kept."""
+    """Return to the chosen drawing's opening settings; an own building is kept."""
     st.session_state.settings = defaults(choice())
     renew_widgets()
     open_half_way(building())
 
 
 def renew_widgets() -> None:
-    """Give the widgets of settings new keys, so that late events of old ones are lost.
+    """Give the widgets of settings new keys; late events of old ones are then ignored.
 
-    A slider that is moved before the browser has heard of a reset sends its own old
-    value along with those of all others.
+    A slider moved before the browser has received a reset sends its old value and those
+    of all others.
     """
     st.session_state.generation += 1
 
 
 def query() -> dict[str, str]:
-    """Return all that a link to this state says."""
+    """Return the parameters of a link to this state."""
     name = choice()
     where = {"drawing": name}
     if name == OWN:
@@ -125,10 +125,9 @@ def query() -> dict[str, str]:
 
 
 def work_key() -> str | None:
-    """Return the key under which the building of one's own is kept; None if it is not.
+    """Return the key under which the own building is kept; None if it is not kept.
 
-    A session that opened another's link goes on under a key of its own once it changes
-    the building.
+    A session that opened another's link gets its own key when it changes the building.
     """
     state = st.session_state
     key, kept = state.work or (None, None)
@@ -159,7 +158,7 @@ def choices() -> list[str]:
 def choose(name: str) -> None:
     """Choose a drawing; the sensor's range follows the length of its doors."""
     if name not in choices():
-        return  # the choice of a page that an undo has overtaken
+        return  # a choice made before an undo that removed the drawing
     st.session_state.choice = name
     range_px = defaults(name).range_px
     st.session_state.settings = replace(settings(), range_px=range_px)
@@ -174,7 +173,7 @@ def building() -> Building:
 
 
 def drawing_title(name: str) -> str:
-    """What a drawing is called on screen."""
+    """The name of a drawing on screen."""
     if name == OWN:
         return f"Yours: {st.session_state.own.title}"
     return f"{name}: {load_sample(name).title}"

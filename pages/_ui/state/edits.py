@@ -1,4 +1,4 @@
-"""Edits of the building of a student's own, which can be taken back; messages."""
+"""Edits of a student's own building, with undo and redo; messages."""
 
 import logging
 from collections.abc import Callable, Mapping
@@ -24,9 +24,9 @@ from pages._ui.state.replay import forget_player
 
 LOG = logging.getLogger(__name__)
 MAX_PAST = 50
-"""Edits of the building that can be taken back; they share what they leave alone."""
+"""Most edits that can be undone; edits share the parts that they do not change."""
 MAX_PAST_BYTES = 60_000_000
-"""What those may hold together; the oldest are forgotten first."""
+"""Limit of their size together, bytes; the oldest are dropped first."""
 UNEXPECTED = (
     "That could not be done: an error in this program, which has been logged. What you "
     "had is unchanged."
@@ -35,7 +35,7 @@ UNEXPECTED = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Snapshot:
-    """What an edit can change."""
+    """The parts that an edit can change."""
 
     choice: str
     own: Building | None
@@ -52,7 +52,7 @@ class Snapshot:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Step:
-    """One edit: what was before it, what after, and what kind of edit it was."""
+    """One edit: the state before, the state after, and the kind of edit."""
 
     before: Snapshot
     after: Snapshot
@@ -67,26 +67,26 @@ def _are_same(a: Building | None, b: Building | None) -> bool:
 
 def _snapshot() -> Snapshot:
     state = st.session_state
-    # A copy holds the parts and none of what was computed from them.
+    # A copy holds the parts without cached results.
     own = None if state.own is None else replace(state.own)
     return Snapshot(state.choice, own, settings().range_px)
 
 
 def set_own(own: Building) -> None:
-    """Keep a building of the student's own and show it; the settings stay."""
+    """Keep a student's own building and show it; the settings stay."""
     st.session_state.own = own
     st.session_state.choice = OWN
     forget_player()
 
 
 def open_own(own: Building) -> None:
-    """Take over a building that is new, with the range that belongs to it."""
+    """Use a new building, with its own sensor range."""
     st.session_state.own = own
     choose(OWN)
 
 
 def edit_building(**changes: Any) -> None:
-    """Replace parts of the building; a sample becomes a building of one's own."""
+    """Replace parts of the building; a sample becomes the student's own building."""
     set_own(replace(building(), **changes))
 
 
@@ -103,7 +103,7 @@ def open_project(own: Building, texts: Mapping[str, str]) -> None:
 
 
 def attempt(action: Callable[[], None]) -> None:
-    """Run an action on what the student gave; keep what they had if it fails."""
+    """Run an action on a student's input; if it fails, nothing changes."""
     state = st.session_state
     state.message = ""
     before = state.choice, state.own, state.settings
@@ -119,19 +119,18 @@ def attempt(action: Callable[[], None]) -> None:
 
 
 def message() -> str:
-    """What went wrong last, in one sentence; empty if nothing did."""
+    """The last failure, in one sentence; empty if there was none."""
     return st.session_state.message
 
 
 def edit(action: Callable[[], None], tag: str = "") -> None:
-    """Attempt an edit of the building that can be taken back.
+    """Attempt an edit of the building that can be undone.
 
-    Edits with the same `tag` that follow each other directly, such as the strokes on
-    one board, are one: the second began where the first ended, and nothing was taken
-    back in between.
+    Consecutive edits with the same `tag`, such as the strokes on one board, count as
+    one if the second began where the first ended and nothing was undone in between.
 
-    The next click may stop a script at any look at the session's state, also in a
-    callback: what was begun is noted, and done again by `finish` in the next run.
+    The next click may stop a script at any access to the session's state, also in a
+    callback. So the edit is noted first, and `finish` repeats it in the next run.
     """
     state = st.session_state
     state.unfinished = _snapshot(), action, tag
@@ -140,7 +139,7 @@ def edit(action: Callable[[], None], tag: str = "") -> None:
 
 
 def finish() -> None:
-    """Do the edit again that the last run was stopped in, if there is one."""
+    """Repeat the edit in which the last run was stopped, if there is one."""
     state = st.session_state
     if state.get("unfinished") is None:
         return
@@ -174,27 +173,27 @@ def _bounded(past: tuple[Step, ...]) -> tuple[Step, ...]:
 
 
 def can_undo() -> bool:
-    """Whether an edit of the building can be taken back."""
+    """Whether an edit of the building can be undone."""
     return bool(st.session_state.past)
 
 
 def can_redo() -> bool:
-    """Whether an edit that was taken back can be done again."""
+    """Whether an undone edit can be redone."""
     return bool(st.session_state.future)
 
 
 def undo() -> None:
-    """Take the last edit of the building back, if there is one."""
+    """Undo the last edit of the building, if there is one."""
     state = st.session_state
     if not state.past:
-        return  # a click that came while the last step was being taken back
+        return  # a click during the undo of the last step
     *past, step = state.past
     _restore(step.after, step.before)
     state.past, state.future = tuple(past), (*state.future, step)
 
 
 def redo() -> None:
-    """Do the edit again that was taken back last, if there is one."""
+    """Redo the edit that was undone last, if there is one."""
     state = st.session_state
     if not state.future:
         return
@@ -204,7 +203,7 @@ def redo() -> None:
 
 
 def _restore(left: Snapshot, entered: Snapshot) -> None:
-    """Go from one side of an edit to the other; only what it changed is changed."""
+    """Go from one side of an edit to the other; parts that it left alone stay."""
     state = st.session_state
     state.choice, state.own = entered.choice, entered.own
     if left.range_px != entered.range_px:

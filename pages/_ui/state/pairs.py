@@ -18,7 +18,7 @@ def choose_pair(p_wall: float, p_space: float) -> None:
 
 
 def prior() -> Prior:
-    """The prior of the chosen pair, whether or not the player leaves it out."""
+    """The prior of the chosen pair, even if the player shows the uninformative one."""
     return Prior(p_wall=settings().p_wall, p_space=settings().p_space)
 
 

@@ -1,4 +1,4 @@
-"""What the map player was last sent, and what the student chose in it."""
+"""The document last sent to the map player, and the student's choices in it."""
 
 import contextlib
 from collections.abc import Mapping
@@ -19,10 +19,10 @@ PLAYER_KEY = "map_player"
 
 
 def player_document() -> PlayerDocument:
-    """What the player starts from; the same object until it must change from outside.
+    """The document that the player starts from; the same object until it must change.
 
     The player owns its priors and its step while it is on the screen. A document with a
-    new ``rev`` overrules it: after a reset, another drawing, or another page.
+    new ``rev`` replaces it: after a reset, another drawing, or another page.
     """
     state = st.session_state
     if state.imposed is None:
@@ -39,7 +39,7 @@ def forget_player() -> None:
 
 
 def take_from_player(document: PlayerDocument | None) -> None:
-    """Take over what the student chose in the player, without sending it back."""
+    """Store the student's choices in the player, without sending them back."""
     if document is None:
         return
     shared = {name: getattr(document, name) for name in SHARED}
@@ -48,12 +48,12 @@ def take_from_player(document: PlayerDocument | None) -> None:
 
 
 def half_way(building: Building) -> int:
-    """The step at which the player opens: the middle of the story of the building."""
+    """The step at which the player opens: the middle of the replay."""
     return len(building.trajectory) // 2
 
 
 def open_half_way(building: Building) -> None:
-    """Let the player open in the middle of the story of the building."""
+    """Let the player open in the middle of the replay."""
     st.session_state.played = replace(
         st.session_state.played, step=half_way(building), pin_px=None
     )
@@ -61,7 +61,7 @@ def open_half_way(building: Building) -> None:
 
 
 def place_in_replay(building: Building) -> dict[str, str]:
-    """Where the student is in the replay, as text for a link; the opening left out."""
+    """The position in the replay, as texts for a link; defaults are left out."""
     played: PlayerDocument = st.session_state.played
     texts = {} if played.step == half_way(building) else {"step": str(played.step)}
     if played.pin_px is not None:
@@ -72,7 +72,7 @@ def place_in_replay(building: Building) -> dict[str, str]:
 
 
 def go_to_place(texts: Mapping[str, str]) -> None:
-    """Open the replay at the place that a link names, as far as it is one."""
+    """Open the replay at the position in a link, if it is valid."""
     played: PlayerDocument = st.session_state.played
     commit = encode_document(played)
     for name in ("step", "speed"):

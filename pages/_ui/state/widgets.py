@@ -1,4 +1,4 @@
-"""Widgets tied to what the session keeps."""
+"""Widgets tied to the session's state."""
 
 import contextlib
 from collections.abc import Callable
@@ -56,7 +56,7 @@ def bind_index(key: str, index: int, choose: Callable[[int], None]) -> dict[str,
 
 
 def _take_index(key: str, choose: Callable[[int], None]) -> None:
-    # An index of a list that has been replaced meanwhile may lie beyond its end.
+    # If the list was replaced meanwhile, the index may lie beyond its end.
     with contextlib.suppress(IndexError, KeyError):
         choose(st.session_state[key])
 
@@ -79,7 +79,7 @@ def _take_click(key: str, of_pairs: bool) -> None:
     for point in (value(key) or {}).get("selection", {}).get("points", ()):
         place = (point["y"], point["x"]) if of_pairs else None
         clicked[key] = point.get("customdata") or place
-    # A second click on a point takes its selection away: it is still the one meant.
+    # A second click on a point clears the selection; the pair stays chosen.
     if clicked.get(key):
         attempt(lambda: choose_pair(*clicked[key]))
 
@@ -90,7 +90,7 @@ def view(name: str, default: Any) -> Any:
 
 
 def set_view(name: str, value: Any) -> None:
-    """Bring the student to another place of a page."""
+    """Show the student another place of a page."""
     st.session_state.setdefault("views", {})[name] = value
 
 
@@ -99,8 +99,8 @@ def bind_view(
 ) -> dict[str, Any]:
     """Return ``key`` and ``on_change`` of a widget whose value outlives its page.
 
-    For tools and places on a page, which are no settings of the map. What comes `then`
-    is attempted as an edit of the building.
+    For tools and places on a page, which are no settings of the map. `then` is
+    attempted as an edit of the building.
     """
     key = f"view_{name}"
     st.session_state[key] = view(name, default)

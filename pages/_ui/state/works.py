@@ -1,8 +1,8 @@
-"""Buildings of the students' own, kept on the server so that a reload finds them.
+"""Students' own buildings, kept on the server so that a reload finds them.
 
-A link cannot hold a drawing. What is kept here is found by a key that nobody can
-guess, for as long as the server runs, within bounds of bytes and of age; who opens a
-link with the key sees the building and goes on with a copy of it.
+A link cannot hold a drawing. A building is kept here under an unguessable key, while
+the server runs, within limits of size and age. Whoever opens a link with the key sees
+the building and edits a copy of it.
 """
 
 import dataclasses
@@ -15,7 +15,7 @@ from occsim.building import Building
 from pages._ui.shared import size_of
 
 MAX_BYTES = 600_000_000
-"""All buildings together; the one that was kept longest ago goes first."""
+"""Limit of all buildings together, bytes; the oldest is dropped first."""
 MAX_AGE_S = 24 * 3600
 """How long a building is kept after its last change."""
 
@@ -35,12 +35,12 @@ class Works:
         with self._lock:
             try:
                 self._kept[key] = dataclasses.replace(building)
-            except ValueError:  # larger than all that may be kept
+            except ValueError:  # larger than the limit
                 return None
         return key
 
     def find(self, key: str) -> Building | None:
-        """Return what was kept under a key; None where nothing is, or no longer."""
+        """Return the building kept under a key; None if there is none."""
         with self._lock:
             return self._kept.get(key)
 

@@ -25,8 +25,8 @@ def show() -> None:
         st.select_slider(
             "Working size (px)",
             [500, 750, 1000, 1250, 1500, 2000, 2500, 3000],
-            help="Longer side to which larger drawings are scaled down when they are "
-            "brought. More pixels show thinner walls and take longer.",
+            help="Longer side to which larger drawings are scaled down when they "
+            "are uploaded. More pixels show thinner walls and take longer.",
             **state.bind_view(uploads.WORKING, uploads.WORKING_PX),
         )
         st.caption(f"{lengths.size()}. {words.plain(state.building().about)}")

@@ -1,4 +1,4 @@
-"""The drawing board of this page, tied to the building that is drawn on."""
+"""The drawing board of this page, tied to the building."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,7 +14,7 @@ from pages._ui.components.board import (
 from pages._ui.state import boards as kept
 
 HEIGHT_PX = 520
-"""The board and what stands above it fit in 720 px."""
+"""Height that lets the board and the controls above it fit in 720 px."""
 
 
 def board(
@@ -24,11 +24,11 @@ def board(
     make: Callable[[], BoardDocument],
     take: Callable[[BoardDocument], None],
 ) -> BoardDocument:
-    """Show a board of some parts of the building, `source`; return what it holds.
+    """Show a board of some parts of the building, `source`; return its document.
 
-    What a hand has changed is given to `take`, an edit that can be taken back: in the
-    callback, before the script runs, so that all of the page speaks of it; after the
-    script, for a commit that came without its callback.
+    Changes go to `take`, an edit that can be undone: in the callback, before the script
+    runs, so that the whole page shows them; after the script, for a commit that came
+    without its callback.
     """
 
     def take_new(drawn: BoardDocument | None) -> None:
@@ -97,7 +97,7 @@ def points_board(
 ) -> tuple[BoardPoint, ...]:
     """Show a board on which two points are set; return those that it holds.
 
-    Points that are new are given to `use`.
+    New points are passed to `use`.
     """
 
     def source() -> kept.Source:

@@ -29,9 +29,8 @@ def correct() -> None:
         drawn.walls_board("board_walls")
     with right:
         st.markdown(
-            "**See** what the detection took for wall, tinted. **Try** to erase what "
-            "is none and to close what is broken. **Why:** the prior is made of this "
-            "mask, and of nothing else."
+            "**See** the detected walls, tinted. **Try** to erase what is not wall "
+            "and to close gaps. **Why:** the prior is made from this mask alone."
         )
         building = state.building()
         st.caption(f"{building.n_added:,} px added, {building.n_erased:,} px erased")
@@ -57,7 +56,7 @@ def _discard() -> None:
 
 
 def agreement() -> None:
-    """Say how far the wall mask agrees with the ground truth."""
+    """Show the scores of the wall mask against the ground truth."""
     building = state.building()
     if building.truth is None:
         st.caption("No ground truth yet, so there is nothing to compare with.")
@@ -80,7 +79,7 @@ def error_picture() -> bytes:
 
 
 def truth() -> None:
-    """Make the ground truth from the mask or from nothing, or take an image."""
+    """Make the ground truth from the mask or from an empty one, or upload an image."""
     left, right = st.columns([4, 1])
     has_truth = state.building().truth is not None
     with left:
@@ -92,7 +91,7 @@ def truth() -> None:
         _words_of_truth(has_truth)
         for label, make in (
             ("Start from the wall mask", _from_walls),
-            ("Start from nothing", _from_nothing),
+            ("Start from an empty mask", _from_nothing),
         ):
             st.button(label, on_click=state.edit, args=(make,), width="stretch")
         if has_truth:

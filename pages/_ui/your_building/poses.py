@@ -59,7 +59,7 @@ def poses_figure(building: Building, height_px: int) -> go.Figure:
 
 
 def _reach(places: Iterable[float], size: int) -> tuple[float, float]:
-    """From where to where to show: the drawing, and poses not far outside of it."""
+    """The range to show: the drawing, and poses not far outside of it."""
     margin, edge = 0.25 * size, 0.02 * size
     outside = [p for p in places if -margin <= p < 0 or size < p <= size + margin]
     low, high = min(outside, default=0.0), max(outside, default=0.0)

@@ -27,7 +27,7 @@ Sketch = tuple[tuple[float, float, bool], ...]
 
 
 def show() -> None:
-    """Show the way that was chosen to make a trajectory."""
+    """Show the chosen way to make a trajectory."""
     left, right = st.columns([3, 1])
     with right:
         way = st.segmented_control(
@@ -46,7 +46,7 @@ def show() -> None:
                 poses_figure(state.building(), drawn.HEIGHT_PX), key="poses"
             )
     with right:
-        # After the board: of the path as it is drawn now.
+        # After the board, so that it counts the path just drawn.
         _facts()
 
 
@@ -64,7 +64,7 @@ def _facts() -> None:
 def _sketch() -> None:
     st.caption(
         "Set waypoints with clicks or draw a free line; the robot follows it and "
-        "reads at equal steps."
+        "takes readings at equal steps."
     )
     st.slider("Step (px)", 1, 100, help="Between readings.", **_bound("step_px", 10))
     st.selectbox(
@@ -96,7 +96,7 @@ def _board() -> None:
 
 
 def _shown() -> kept.Source:
-    """What the world is made of, and the sketch."""
+    """The parts that make the world, and the sketch."""
     building = state.building()
     found, corrections = building.walls_found, building.corrections
     return found, corrections, building.truth, building.sketch
@@ -117,7 +117,7 @@ def _take_sketch(document: BoardDocument) -> None:
 
 
 def _follow(sketch: Sketch) -> None:
-    """Take a sketch and the poses along it; none at all leaves the trajectory."""
+    """Use a sketch and the poses along it; an empty sketch leaves the trajectory."""
     changes: dict[str, object] = {"sketch": sketch}
     if sketch:
         changes["trajectory"] = sketched_trajectory(
@@ -138,8 +138,9 @@ def _plan() -> None:
         20,
         MAX_READINGS,
         step=20,
-        help="A tour takes as many as it needs to show the inside of the building to "
-        "this sensor. Where that is more, it takes those that show most.",
+        help="A tour has as many readings as this sensor needs to see the inside of "
+        "the building. If that is more than this limit, the tour keeps the readings "
+        "that show most.",
         **state.bind_view("max_readings", TOUR_READINGS),
     )
     _plan_button("Plan a tour for this sensor", _tour)
@@ -210,8 +211,8 @@ def _files() -> None:
         format_func=UNITS.__getitem__,
         horizontal=True,
         disabled=file_format is TrajectoryFormat.TUM,
-        help="An NPY file does not say which, so it has to be told when it is read; a "
-        "TUM file holds quaternions.",
+        help="An NPY file does not state the unit, so choose it when the file is "
+        "read; a TUM file holds quaternions.",
         **state.bind_view("pose_degrees", False),
     )
     trajectory: Trajectory = state.building().trajectory

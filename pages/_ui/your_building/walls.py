@@ -11,7 +11,7 @@ from pages._ui.state import boards as kept
 from pages._ui.your_building import masks
 
 COLUMNS = 5
-"""Two rows of pictures, large enough to see a door leaf vanish."""
+"""Height of the pictures: two rows, large enough to see a door leaf removed."""
 
 
 def show() -> None:
@@ -70,7 +70,7 @@ def _all_stages() -> None:
     )
     st.toggle(
         "Straighten first",
-        help="Turn a tilted drawing upright while its walls are looked for.",
+        help="Turn a tilted drawing upright while its walls are detected.",
         **kept.bind_wall("straighten", _change),
     )
     st.caption(

@@ -1,8 +1,8 @@
-"""The address line: it follows the student's choices; one tap copies it.
+"""The address line: it follows the student's choices; a button copies it.
 
 One Streamlit component at the foot of every page. It replaces the address without a
 new entry in the browser's history, so that a reload, a bookmark and a copied link open
-what is on the screen, and it asks before work is left that no link can bring back.
+what is on the screen, and it asks before the user leaves work that no link can restore.
 """
 
 import json
@@ -29,13 +29,13 @@ def address(
     Parameters
     ----------
     query : mapping of str to str
-        What the address says after the question mark.
+        The query of the address, after the question mark.
     note : str
         What the link does and does not carry, shown once it has been copied.
     unsaved : bool
-        Whether leaving the page loses something that the link does not bring back.
+        Whether leaving the page loses something that the link does not restore.
     has_button : bool
-        Whether there is anything to see at all.
+        Whether the button is shown.
     key : str
         Key of the component.
     """

@@ -1,6 +1,6 @@
 // The address line and the button that copies it.
 
-// One listener for the window, whatever becomes of the element: what it asks last counts.
+// One listener for the window, even if the element is replaced: the last state counts.
 const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
@@ -18,7 +18,7 @@ function replaceAddress(query) {
   const address = new URL(window.location.href);
   address.search = new URLSearchParams(query).toString();
   if (address.href !== window.location.href) {
-    // The state that Streamlit's own navigation keeps there stays.
+    // Keep the state that Streamlit's own navigation stores there.
     window.history.replaceState(window.history.state, "", address);
   }
 }
@@ -38,7 +38,7 @@ async function copy(said, note) {
     await navigator.clipboard.writeText(link);
     said.textContent = `Copied. ${note}`;
   } catch {
-    // Without https there is no clipboard for scripts: the old way, else by hand.
+    // Without https scripts have no clipboard: copy by selection, else show the link.
     said.textContent = copiedBySelection(link) ? `Copied. ${note}` : link;
   }
 }

@@ -1,10 +1,10 @@
-"""The drawing board: walls, a trajectory, a length or a crop, by hand on a drawing.
+"""The drawing board: walls, a trajectory, a length or a crop, drawn on a drawing.
 
 One Streamlit component. Python sends the drawing, the walls and the corrections over
-them once; the board edits the corrections by itself and tells Python when the hand lets
-go: which tiles differ from what was sent, pixel by pixel. The scripts beside this file
-are plain functions, joined here in a fixed order into the one module that Streamlit
-wants.
+them once; the board edits the corrections by itself and, at the end of each gesture,
+tells Python which tiles differ from what was sent, pixel by pixel. The scripts beside
+this file are plain functions, joined here in a fixed order into the single module that
+Streamlit expects.
 """
 
 import base64
@@ -37,7 +37,7 @@ SCRIPTS = (
 COMPONENT = "drawing_board"
 HEIGHT_PX = 560
 MAX_PATH_POINTS = 5_000
-"""No sketch has as many; they are resampled anyway."""
+"""Most points of a path; no sketch needs as many."""
 
 
 class BoardMode(Enum):
@@ -62,7 +62,7 @@ class BoardPoint:
     x_px, y_px : float
         In the image frame, inside the drawing.
     is_waypoint : bool
-        Placed by a click; otherwise one of the many of a free-hand line.
+        Placed by a click; otherwise a point of a free-hand line.
     """
 
     x_px: float
@@ -72,7 +72,7 @@ class BoardPoint:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class BoardDocument:
-    """What a board holds; one for each thing that is drawn (one mode).
+    """The content of a board in one mode.
 
     Parameters
     ----------
@@ -82,13 +82,13 @@ class BoardDocument:
         Wall mask that is corrected, or that is shown under a path, packed by
         `occsim.corrections.pack_mask`; empty for none.
     overlay : Corrections or None
-        What was corrected in it; None for nothing.
+        Corrections of that mask; None for no corrections.
     points : tuple of BoardPoint
-        What the other modes draw.
+        The points drawn in the other modes.
     rev : int
         Counts the times that Python imposed other contents; the board echoes it.
     token : str
-        Tells this document from one of another session with the same `rev`.
+        Distinguishes this document from one of another session with the same `rev`.
     """
 
     height_px: int
@@ -106,7 +106,7 @@ class BoardDocument:
 
     @property
     def corrections(self) -> Corrections:
-        """What was corrected, if only nothing."""
+        """The corrections, possibly empty."""
         return self.overlay or Corrections.none(self.shape)
 
     def mask(self) -> Any:
@@ -147,13 +147,14 @@ def drawing_board(
     * where contents change from outside (another drawing, a project opened, a reset):
       ``replace(current, ..., rev=rev + 1)``;
     * where the page was left and entered again, the same way, so that the board starts
-      from what is current; where it remembers the same contents, its undo goes on.
+    from the current contents; if it remembers the same contents, its undo history
+    stays.
 
     Commits carry all edits since the document was imposed. They may be merged or lost
-    on their way: the last one says everything. One that echoes an older rev is answered
-    with None. A run can be cut short by the next one, so the surest place to take a
-    commit is `on_commit`, which runs first: there ``decode_commit(value of the key,
-    field "committed"; imposed, mode)`` gives the same as this call.
+    in transit: the last one is complete. One that echoes an older rev is answered with
+    None. A run can be cut short by the next one, so the surest place to take a commit
+    is `on_commit`, which runs first: there ``decode_commit(value of the key, field
+    "committed"; imposed, mode)`` gives the same as this call.
 
     Parameters
     ----------
@@ -225,8 +226,8 @@ def decode_commit(
 ) -> BoardDocument | None:
     """Return the document with the edits that a browser committed, all of it checked.
 
-    Anything may come: what is no commit on this document, or holds anything that the
-    board does not write, gives None.
+    The input is not trusted: anything that is not a commit on this document, or that
+    the board would not write, gives None.
     """
     if not isinstance(commit, Mapping):
         return None

@@ -53,7 +53,7 @@ function opened(parentElement) {
   listen(b);
   b.observer = new ResizeObserver(() => measure(b));
   b.observer.observe(canvas);
-  // For tests and the curious: what the board holds, by value.
+  // For tests and debugging: a copy of the board's state.
   root.boardState = () => ({
     camera: { ...b.camera },
     points: b.doc.points,
@@ -87,7 +87,7 @@ async function receive(b, data) {
     decodedFlags(base, size),
     decodedFlags(overlay, 2 * size),
   ]);
-  // Later data may have overtaken these while they were decoded.
+  // Newer data may have arrived while these were decoded.
   if (turn !== b.loading || b.closed) return;
   take(b, header, bitmap, walls, overlayOf(planes, size));
 }
@@ -100,7 +100,7 @@ const overlayOf = (planes, size) =>
   planes.subarray(0, size).map((isAdded, i) => (isAdded ? ADDED : planes[size + i] ? ERASED : 0));
 
 function take(b, header, bitmap, base, overlay) {
-  // The same document again (the scale has changed) can wait until the hand lets go.
+  // The same document again (the scale has changed) can wait until the gesture ends.
   if (b.gesture && b.doc.identity === identityOf(header)) {
     b.waiting = () => take(b, header, bitmap, base, overlay);
     return;
@@ -124,7 +124,7 @@ function take(b, header, bitmap, base, overlay) {
   showState(b);
 }
 
-// Edits survive wherever Python imposes the document that they were made on.
+// Edits survive if Python imposes the document that they were made on.
 function documentFor(b, header, base, overlay) {
   const known = [b.doc, memory.get(header.key)?.doc].filter(Boolean);
   const same = known.find((doc) => doc.identity === identityOf(header));
@@ -142,7 +142,7 @@ function remember(b) {
   memory.set(b.header.key, { doc, camera: { ...camera }, size, tool, widths, opacity, straight });
 }
 
-// The view and the tools of the last visit, as far as they fit what is shown now.
+// The view and the tools of the last visit, as far as they fit the current document.
 function recallView(b, isNewSize) {
   const last = memory.get(b.header.key);
   const tools = MODES[b.header.mode];

@@ -3,7 +3,7 @@
 
 const MAX_SCALE = 48;
 const FIT_MARGIN_PX = 12;
-const KEEP_IN_VIEW_PX = 64; // so much of the drawing cannot be pushed off the canvas
+const KEEP_IN_VIEW_PX = 64; // at least this much of the drawing stays on the canvas
 const ZOOM_STEP = 1.4;
 
 const newCamera = () => ({ scale: 1, x: 0, y: 0, width: 1, height: 1, fitted: true });
@@ -57,7 +57,7 @@ function resize(camera, size, width, height) {
 const toImage = (camera, [sx, sy]) => [(sx - camera.x) / camera.scale, (sy - camera.y) / camera.scale];
 const toScreen = (camera, [x, y]) => [x * camera.scale + camera.x, y * camera.scale + camera.y];
 
-// Brings a point of the drawing into sight; for the keyboard's cursor.
+// Scrolls a point of the drawing into view; for the keyboard's cursor.
 function reveal(camera, size, point) {
   const [sx, sy] = toScreen(camera, point);
   const shift = (s, length) => clamp(s, 24, Math.max(length - 24, 24)) - s;

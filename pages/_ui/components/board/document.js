@@ -1,8 +1,8 @@
 // What is edited: corrections over a base mask, or a list of points; undo, redo, commit.
 //
 // Python owns the document and imposes it with a `rev`; every commit echoes that rev and
-// says all that differs from what was imposed, so commits may be lost or merged on their
-// way and the last one still says everything.
+// holds all differences from the imposed document, so commits may be lost or merged in
+// transit: the last one is complete.
 
 const UNDO_DEPTH = 200; // steps of a path
 const UNDO_RUNS = 1e6; // of all strokes together, 12 bytes each
@@ -26,7 +26,7 @@ function newDocument(header, base, overlay) {
 
 const identityOf = (header) => [header.mode, header.token, header.rev, header.width, header.height].join("|");
 
-// Whether a board that comes back is sent what it held: then its undo goes on.
+// Whether a board that returns is sent the contents that it had: then its undo stays.
 function holdsTheSame(doc, other) {
   return (
     doc.mode === other.mode &&
@@ -44,7 +44,7 @@ function areEqual(a, b) {
 
 // --- Corrections: a step is a patch, runs of pixels with what they were before. ---
 
-// Takes over what a stroke changed since `before`, within a box.
+// Records what a stroke changed since `before`, within a box.
 function addStroke(b, before, box) {
   const patch = patchOf(b.doc.overlay, before, box, b.size.width);
   if (!patch) return;
@@ -139,7 +139,7 @@ function packTile(overlay, tile, bytes) {
 
 // --- Points: a step is the list as it was before. ---
 
-// Replaces the points; what was there before can be had back.
+// Replaces the points; the previous ones can be restored by undo.
 function setPoints(b, points, before = b.doc.points) {
   b.doc.points = points;
   if (JSON.stringify(points) === JSON.stringify(before)) return;
@@ -179,8 +179,8 @@ function stepped(b, step, isUndone) {
   return step;
 }
 
-// At once, but not more often than Streamlit can follow: of a quick series the last
-// commit holds all the others.
+// Immediately, but not more often than Streamlit can follow: in a quick series the last
+// commit contains all others.
 function commit(b) {
   remember(b);
   showState(b);
@@ -202,6 +202,6 @@ async function send(b) {
   const { rev, token, mode } = b.header;
   const edits =
     mode === "walls" ? { tiles: base64(await deflated(changedTiles(b))) } : { points: b.doc.points };
-  // One that was begun later says more.
+  // A commit that was begun later is more complete.
   if (turn === b.sending) b.setStateValue("committed", { rev, token, ...edits });
 }

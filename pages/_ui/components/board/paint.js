@@ -27,7 +27,7 @@ function paintDrawing(b) {
   const rect = [camera.x, camera.y, size.width * camera.scale, size.height * camera.scale];
   ctx.fillStyle = b.colours.paper;
   ctx.fillRect(...rect);
-  // Close up a pixel is shown as the square it is.
+  // At high zoom a pixel is shown as a square.
   ctx.imageSmoothingQuality = "high";
   ctx.imageSmoothingEnabled = camera.scale < 3;
   if (b.bitmap) ctx.drawImage(b.bitmap, ...rect);
@@ -120,7 +120,7 @@ function paintPath(b) {
   paintTarget(b, points);
 }
 
-// What a click would do here: take this point, insert one, or go on to it.
+// What a click would do here: select this point, insert one, or append one.
 function paintTarget(b, points) {
   if (b.tool !== "waypoints" || b.gesture || b.panning || b.space || !b.hover || !points.length) return;
   const mouse = { pointerType: "mouse" };
@@ -237,7 +237,7 @@ function paintFrame(b) {
   label(b, `${box.x1 - box.x0} x ${box.y1 - box.y0} px`, [(x0 + x1) / 2, y1 - 22]);
 }
 
-// The brush as large as it draws; for the keyboard a cross hair.
+// The brush at its real size; for the keyboard a cross-hair.
 function paintCursor(b) {
   const at = b.keyboard ?? b.hover;
   if (!at || b.panning) return;

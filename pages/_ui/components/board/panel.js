@@ -63,7 +63,7 @@ function chooseTool(b, name) {
   if (straight) straight.disabled = !ANGLED.has(name);
   const width = b.widths[name];
   const row = partOf(b.root, "width-row");
-  // Kept in its place, so that nothing moves when a tool without a width is chosen.
+  // Keeps its space, so that nothing moves when a tool without a width is chosen.
   row.dataset.off = width ? "0" : "1";
   row.querySelector("input").disabled = !width;
   if (width) setWidth(b, width);
@@ -93,7 +93,7 @@ function showCursor(b) {
   requestPaint(b);
 }
 
-// Buttons that can do nothing now say so; numbers are brought up to date.
+// Disables buttons without effect and updates the numbers.
 function showState(b) {
   if (!b.doc) return;
   const off = { undo: !b.doc.past.length, redo: !b.doc.future.length, remove: !b.doc.points.length };

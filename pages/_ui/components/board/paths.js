@@ -2,7 +2,7 @@
 
 const WAYPOINT = 1;
 const FREEHAND = 0;
-const FREEHAND_CSS_PX = 1.2; // what simplifying may move a path, as seen on the screen
+const FREEHAND_CSS_PX = 1.2; // largest shift of a path by simplifying, on the screen
 const CLICK_CSS_PX = 5;
 const MIN_CROP_PX = 8;
 
@@ -131,7 +131,7 @@ const cropPoints = (b, p, q) =>
     WAYPOINT,
   ]);
 
-// A drag draws a new frame; a corner of the one there is resizes it, its inside moves it.
+// A drag draws a new frame; dragging a corner resizes the frame, its inside moves it.
 function frame(b, p, event) {
   const before = b.doc.points;
   const box = before.length === 2 ? cropBox(before) : null;

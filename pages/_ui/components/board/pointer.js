@@ -1,4 +1,4 @@
-// Mouse, pen, touch and keys: what a hand does becomes a gesture of the chosen tool.
+// Mouse, pen, touch and keys: input becomes a gesture of the chosen tool.
 
 const LONG_PRESS_MS = 550;
 const STILL_CSS_PX = 8;
@@ -35,7 +35,7 @@ function pointerDown(b, event) {
   b.pointers.set(event.pointerId, screenPoint(b, event));
   if (b.pointers.size > 1) return startPinch(b);
   if (event.button === 1 || b.space || b.tool === "hand") return startPan(b);
-  // With Ctrl it is the right click of a Mac.
+  // With Ctrl it is a right click on a Mac.
   if (event.button !== 0 || event.ctrlKey) return;
   b.pressedAt = screenPoint(b, event);
   startGesture(b, imagePoint(b, event), event);
@@ -56,7 +56,7 @@ function stopGesture(b) {
   requestPaint(b);
 }
 
-// What Python sent while the hand was drawing.
+// Applies what Python sent during the gesture.
 function takeWaiting(b) {
   const waiting = b.waiting;
   b.waiting = null;
@@ -85,7 +85,7 @@ function pointerMove(b, event) {
   if (b.pinch) return movePinch(b);
   if (b.panning) pan(b.camera, b.size, at[0] - before[0], at[1] - before[1]);
   if (b.gesture) {
-    // A fast hand moves more often than a frame is drawn.
+    // A fast pointer sends several positions per frame.
     const events = event.getCoalescedEvents ? event.getCoalescedEvents() : [];
     for (const one of events.length ? events : [event]) b.gesture.move(imagePoint(b, one), event);
     showState(b);
@@ -127,7 +127,7 @@ function stopPan(b) {
   showCursor(b);
 }
 
-// A second finger turns what the first began into a movement of the view.
+// A second finger turns the gesture of the first into a movement of the view.
 function startPinch(b) {
   stopGesture(b);
   b.panning = true;
@@ -149,7 +149,7 @@ function movePinch(b) {
   requestPaint(b);
 }
 
-// Whoever leaves the canvas may be about to leave the page.
+// A pointer that leaves the canvas may be about to leave the page.
 function pointerLeave(b) {
   hoverAt(b, null);
   if (b.commitTimer) flush(b);
@@ -168,7 +168,7 @@ function contextMenu(b, event) {
   requestPaint(b);
 }
 
-// The wheel belongs to the page until the board was touched, or Ctrl is held.
+// The wheel zooms if the board has the focus or Ctrl is held; else it scrolls the page.
 function wheel(b, event) {
   const hasFocus = b.root.getRootNode().activeElement === b.canvas;
   if (!b.doc || !(hasFocus || event.ctrlKey || event.metaKey)) return;

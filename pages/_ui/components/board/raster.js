@@ -1,7 +1,5 @@
 // Which pixels a stroke covers, and the geometry of lines.
-//
-// A pixel belongs to a line if its test point lies within half the line's width, or if
-// one of the line's points lies in it, so that the thinnest dot is not lost. The test
+// A pixel belongs to a line if its test point lies within half the line's width, or if one of the line's points lies in it, so that a thin dot has at least one pixel. The test
 // point is a little right of and below the centre: a line of width 2 along the pixels
 // covers two rows of them, not one or three.
 
@@ -137,7 +135,7 @@ function simplified(points, tolerance) {
   return points.filter((_, i) => keep[i]);
 }
 
-// The same with as many points as are allowed: a long scribble is simplified more.
+// The same with a limited number of points: a long line is simplified more.
 function atMost(limit, points, tolerance) {
   let few = simplified(points, tolerance);
   for (let t = 2 * tolerance; few.length > limit; t *= 2) few = simplified(few, t);

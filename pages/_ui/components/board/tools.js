@@ -1,4 +1,4 @@
-// The tools of each mode: what they are called, say and look like.
+// The tools of each mode: label, hint and icon.
 
 const STRAIGHT = "Shift keeps to 0, 45 and 90 degrees.";
 const TOOLS = {
@@ -24,12 +24,12 @@ const TOOLS = {
   },
   eraser: {
     label: "Eraser", key: "e", width: 12, start: freeLine("eraser"),
-    hint: "Drag to take wall away.",
+    hint: "Drag to erase wall.",
     icon: '<path d="M9.5 19.5 4 14 14 4l6.5 6.5-9 9zM8.5 9.5l6.5 6.5M9 20h11"/>',
   },
   clear: {
     label: "Clear rectangle", key: "c", start: twoPoints("clear"),
-    hint: "Drag from corner to corner to take all wall in a rectangle away.",
+    hint: "Drag from corner to corner to erase all wall in a rectangle.",
     icon: '<path stroke-dasharray="3 2.2" d="M4 6h16v12H4z"/><path d="m9.5 9.5 5 5m0-5-5 5"/>',
   },
   waypoints: {
@@ -39,7 +39,7 @@ const TOOLS = {
   },
   freehand: {
     label: "Free hand", key: "f", start: freehand,
-    hint: "Drag along the way the robot takes; a new stroke goes on from the end.",
+    hint: "Drag along the robot's path; a new stroke continues from its end.",
     icon: '<path d="M4 17c2.5-9 5.5-12 7-9.5S8.5 15 11 16s4-8 6-7 .5 5 3 6"/>',
   },
   ruler: {
@@ -49,7 +49,7 @@ const TOOLS = {
   },
   frame: {
     label: "Crop", key: "x", start: frame,
-    hint: "Drag from corner to corner around what is to be kept; drag a corner or the inside to change it.",
+    hint: "Drag from corner to corner around the part to keep; drag a corner or the inside to change it.",
     icon: '<path d="M7 3v14h14M3 7h14v14"/>',
   },
   hand: {
@@ -64,7 +64,7 @@ const MODES = {
   measure: ["ruler", "hand"],
   crop: ["frame", "hand"],
 };
-// Tools that the straight toggle (or Shift) speaks to.
+// Tools on which the straight toggle (or Shift) has an effect.
 const ANGLED = new Set(["line", "waypoints", "ruler"]);
 const MAX_WIDTH_PX = 60;
 

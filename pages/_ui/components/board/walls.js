@@ -1,6 +1,6 @@
 // The tools that change the corrections. A tool starts a gesture: {move, end, cancel}.
 
-const NEAR_PX = 0.25; // closer samples of the pointer say nothing new
+const NEAR_PX = 0.25; // closer samples of the pointer are ignored
 
 function freeLine(kind) {
   return (b, start) => {
@@ -41,7 +41,7 @@ function twoPoints(kind) {
         refreshMask(b, dirty);
       },
       end() {
-        // A click without a drag says nothing about where the other end would be.
+        // A click without a drag does not define the other end.
         if (Math.hypot(end[0] - start[0], end[1] - start[1]) * b.camera.scale < 3) return cancel();
         addStroke(b, before, dirty);
       },

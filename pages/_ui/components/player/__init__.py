@@ -1,9 +1,9 @@
-"""The map player: a mapping run replayed in the browser, with the prior in hand.
+"""The map player: a mapping run replayed in the browser, with controls for the prior.
 
 One Streamlit component. Python sends a replay (`occsim.io.replay`) and a document
 once; the player fuses, scores and draws by itself and tells Python what the student
-chose when a hand lets go. The scripts beside this file are plain functions, joined here
-in a fixed order into the one module that Streamlit wants.
+chose at the end of each gesture. The scripts beside this file are plain functions,
+joined here in a fixed order into the single module that Streamlit expects.
 """
 
 import zlib
@@ -42,7 +42,7 @@ SPEEDS = (5, 15, 30, 60, 120)
 SHARED = ("p_wall", "p_space", "uninformative", "rule", "region", "overlay")
 """Fields of a document that are settings of the app as well."""
 BOUND = 1_000_000
-"""No drawing has as many pixels along a side, no trajectory as many poses."""
+"""More than any drawing's pixels along a side, or any trajectory's poses."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -64,7 +64,7 @@ class PlayerDocument:
     overlay : Overlay
         What the map shows.
     step : int
-        Number of readings in the map; the player clamps it to those there are.
+        Number of readings in the map; the player clamps it to the run's number.
     speed : int or None
         Readings per second, one of `SPEEDS`; None lets a replay last about 10 s.
     pin_px : tuple of float or None
@@ -156,11 +156,11 @@ def map_player(
     one unchanged from run to run: replay and document travel together, and any change
     sends both. Impose another, ``replace(current, rev=rev + 1, ...)``, only where the
     change comes from outside the player (reset, share link), and where `key` is not in
-    session state, for then the page was left and the browser has forgotten the player.
-    A commit that echoes an older rev is not believed, so that a late one never undoes
+    session state, because then the page was left and the browser dropped the player's
+    state. A commit that echoes an older rev is ignored, so that a late one never undoes
     what was imposed. A new replay under the same rev (a changed cell size) stops a
     running playback and leaves the student's choices as they are, the step clamped to
-    the readings there are.
+    the number of readings.
 
     Parameters
     ----------
@@ -218,8 +218,9 @@ def encode_document(document: PlayerDocument) -> dict[str, object]:
 def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument:
     """Return the document that a browser committed, every field checked.
 
-    Anything may come: what is no mapping or echoes another rev leaves `document`, and a
-    field that is missing or of the wrong kind keeps its value there.
+    The input is not trusted: a value that is not a mapping, or echoes another rev,
+    leaves `document` unchanged; a field that is missing or of the wrong kind keeps its
+    value.
     """
     if not isinstance(commit, Mapping) or commit.get("rev") != document.rev:
         return document
@@ -239,7 +240,7 @@ def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument:
 
 
 def _checked(name: str, value: object, otherwise: Any) -> Any:
-    """Return a value by the table of settings, or the other one where it refuses."""
+    """Return a value that the settings accept, else the default given."""
     try:
         return getattr(with_changes(Settings(), {name: value}), name)
     except (ValueError, TypeError, OverflowError):

@@ -45,7 +45,7 @@ function stroke(p, context, colour, width, alpha = 1) {
 
 const poseOf = ({ poses }, index) => poses.subarray(3 * index, 3 * index + 3);
 
-// The reading just taken; before the first, the one that waits.
+// The reading just taken; before the first one, the next reading.
 const currentReading = (model) => Math.max(0, model.step - 1);
 
 function tracePath(model, context, from, to) {

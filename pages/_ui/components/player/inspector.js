@@ -1,4 +1,4 @@
-// One cell: hover tells its numbers, a click pins it and shows its readings one by one.
+// One cell: hover shows its numbers, a click pins it and shows its readings one by one.
 
 function listenToCells(p) {
   for (const canvas of Object.values(p.canvases)) {
@@ -95,7 +95,8 @@ function openTab(p, name) {
   refresh(p);
 }
 
-// ---- what is told of a cell ------------------------------------------------------------
+// ---- facts of a cell
+// --------------------------------------------------------------------
 
 function cellTitle(model, c) {
   const [row, column] = placeOf(model, c);

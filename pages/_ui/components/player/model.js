@@ -1,4 +1,4 @@
-// Fusion and scores: numbers only, nothing of the page.
+// Fusion and scores: numbers only, independent of the page.
 //
 // The readings' log-odds do not depend on the prior, so a map at any step follows from
 // the prior's log-odds l_0 and, per cell, the number k and the sum S of its readings:
@@ -21,8 +21,8 @@ function newModel(replay, { decisionEps, priorScale }) {
   return { ...replay, ...links, ...prior, sums, counts, step: 0, decisionEps, priorScale };
 }
 
-// Per entry, what its cell had before: the sum, the number and the entry. With them a
-// step back is exact, and a cell's history is a walk from its last entry.
+// Per entry, the state of its cell before it: the sum, the number and the last entry.
+// With them a step back is exact, and a cell's history is a walk from its last entry.
 function linkEntries({ cell, logOdds, nCells }) {
   const before = new Float64Array(cell.length);
   const rank = new Uint32Array(cell.length);
@@ -40,7 +40,7 @@ function linkEntries({ cell, logOdds, nCells }) {
   return { before, rank, previous, last };
 }
 
-// By class: what holds of space cells, then what holds of wall cells.
+// By class: the value of space cells, then that of wall cells.
 function setPrior(model, { p_wall, p_space, uninformative, rule }) {
   const scaled = [model.priorScale * p_space, model.priorScale * p_wall];
   model.pFreePrior = uninformative ? [0.5, 0.5] : scaled;
@@ -130,7 +130,7 @@ function readingOf({ indptr, nReadings }, entry) {
   return low;
 }
 
-// Every reading of one cell, in order: what it said, what it added, what came out.
+// Every reading of one cell, in order: its value, the term added, and the total.
 function historyOf(model, c) {
   const prior = priorOf(model, c);
   const terms = [];
@@ -143,7 +143,7 @@ function historyOf(model, c) {
   return { prior, terms: terms.reverse() };
 }
 
-// Scores from the counts, as occsim.metrics has them; 0 / 0 is NaN: undefined.
+// Scores from the counts, as in occsim.metrics; 0 / 0 is NaN: undefined.
 const SCORES = {
   precision: ([tp, fp]) => tp / (tp + fp),
   recall: ([tp, , fn]) => tp / (tp + fn),

@@ -1,8 +1,8 @@
 // The replay in time: play and pause, steps by hand, the scrubber and the speed.
 
 const LOOP_PAUSE = 1.6; // s at the end of a compact replay
-const FRAME_MAX = 0.1; // s; a page that slept goes on where it was
-const REPLAY_SECONDS = 10; // what a replay lasts unless a speed was chosen
+const FRAME_MAX = 0.1; // s; limits the jump after a page was in the background
+const REPLAY_SECONDS = 10; // duration of a replay unless a speed was chosen
 
 function listenToTransport(p) {
   const scrub = partOf(p.root, "scrub");
@@ -22,7 +22,7 @@ function buildSpeeds(p, speeds) {
   partOf(p.root, "speed").replaceChildren(...speeds.map(option));
 }
 
-// The speed at which a replay lasts nearest to what it should.
+// The speed that makes a replay last closest to REPLAY_SECONDS.
 function usualSpeed(speeds, nReadings) {
   const away = (speed) => Math.abs(speed - nReadings / REPLAY_SECONDS);
   return speeds.reduce((best, speed) => (away(speed) < away(best) ? speed : best));
@@ -73,7 +73,7 @@ function togglePlay(p) {
   else play(p);
 }
 
-// A step by hand: stops the replay, and Python hears of it.
+// A step by hand: stops the replay and is committed to Python.
 function walkTo(p, step) {
   pause(p);
   goTo(p, step);

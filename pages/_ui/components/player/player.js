@@ -1,11 +1,11 @@
-// The map player: what the student does, what is drawn again, what Python hears of it.
+// The map player: handles input, redraws, and commits to Python.
 //
 // Python owns a document {rev, ...}. The player takes it over when it starts or when rev
-// changes; from then on the student's choices rule, and every commit echoes rev.
+// changes; from then on the student's choices apply, and every commit echoes rev.
 
 const COMMIT_DELAY = 350; // ms; keys held down are one commit
 
-// By key: what a player that the page unmounted showed, and what Python knows of it.
+// By key: the state of a player that the page unmounted, and what Python knows of it.
 const remembered = new Map();
 
 export default function ({ data, parentElement, setStateValue }) {
@@ -78,7 +78,7 @@ function keyDown(p, event) {
       Escape: () => unpin(p),
       " ": () => togglePlay(p),
     };
-    // Sliders, options and buttons keep the keys that are theirs.
+    // Sliders, options and buttons keep their own keys.
     const isTheirs =
       (target.matches("select, input:not(.scrub)") && key !== "Escape") ||
       (target.matches("button") && key === " ");
@@ -103,7 +103,7 @@ async function receive(p, data) {
   }
   const decoded = decodeReplay((await inflated(replay)).buffer);
   const preview = await pictureOf(decoded.preview).catch(() => null);
-  if (turn !== p.loading) return; // newer data is on its way
+  if (turn !== p.loading) return; // newer data is being decoded
   p.preview?.close();
   take(p, header, newModel(decoded, header.constants), preview);
 }
@@ -135,10 +135,9 @@ function take(p, header, model, preview) {
   if (p.state.compact && !isStill) play(p);
 }
 
-// The choices that rule. A player that comes back without word from Python goes on where
-// it was. While it plays nothing is sent, so that Python's word may be the step at which
-// Play was pressed: where that is all it knows of the same replay, the step that was
-// shown counts.
+// The choices that apply. A player that returns without a new document continues where it
+// was. Nothing is sent while it plays, so Python may only know the step at which Play was
+// pressed: if so, for the same replay, the step that was shown counts.
 function adopted({ key, digest, document }, current) {
   const known = remembered.get(key);
   if (known?.state.rev === document.rev) {
@@ -171,7 +170,8 @@ function retheme(p) {
   refresh(p);
 }
 
-// ---- to Python and to who listens --------------------------------------------------------
+// ---- to Python and to screen readers
+// -----------------------------------------------------
 
 function commit(p, delay = 0) {
   if (p.state.compact) return;
@@ -183,7 +183,7 @@ function commit(p, delay = 0) {
   }, delay);
 }
 
-// A screen reader hears what a student comes to, not each frame on the way.
+// A screen reader is told the state at a stop, not each frame.
 function say({ root }, words) {
   partOf(root, "said").textContent = words;
 }
@@ -197,7 +197,7 @@ function stateWords(p) {
 
 // ---- what is drawn again -----------------------------------------------------------------
 
-// After a change of prior, rule, overlay or region: all cells and all curves anew.
+// After a change of prior, rule, overlay or region: redraws all cells and curves.
 function recolour(p) {
   const { state, model } = p;
   if (!model) return;
@@ -223,7 +223,7 @@ function refresh(p) {
   p.root.dataset.drawMs = (performance.now() - began).toFixed(2);
 }
 
-// For tests, readable from outside: what the player shows, and the numbers behind it.
+// For tests: the state of the player, and the numbers behind it.
 function report({ root, header, state, model, curves }) {
   const { step } = state;
   const [tp, fp, fn, tn] = curves.counts.map((curve) => curve[step]);

@@ -39,13 +39,13 @@ function layOut(p) {
   p.paper = scaledPreview(p);
 }
 
-// Width that the pictures cannot use makes the sliders longer.
+// Width that the pictures cannot use goes to the sliders.
 function giveRestToControls(root, rest) {
   const side = clamp(SIDE_MIN + rest, SIDE_MIN, SIDE_MAX);
   root.style.setProperty("--side", `${Math.floor(side)}px`);
 }
 
-// Shrunk once: a good filter on every frame would cost more than all the rest.
+// Reduced once: a good filter on every frame would take longer than all other drawing.
 function scaledPreview({ canvases, preview, header }) {
   const { width, height } = canvases.drawing;
   const paper = offscreen(width, height);

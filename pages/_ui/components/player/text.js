@@ -10,10 +10,10 @@ function fixed(value, digits) {
 
 const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits);
 
-// A score; what is undefined is a dash.
+// A score; a dash if undefined.
 const percent = (value) => (Number.isNaN(value) ? DASH : `${(100 * value).toFixed(1)} %`);
 
-// Three decimals; two digits more than zeros or nines where it would else read as certain.
+// Three decimals; more where the value would otherwise be rounded to 0 or 1.
 function probability(p) {
   const edge = Math.min(p, 1 - p);
   if (edge >= 0.0005 || edge === 0) return p.toFixed(3);

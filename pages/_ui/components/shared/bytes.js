@@ -1,6 +1,6 @@
 // Bytes from and to Python: the other half is `packed` in components/__init__.py.
 
-// What `packed` put together: [header, payload, payload, ...].
+// Unpacks the bytes of `packed`: [header, payload, payload, ...].
 function readPacked(data) {
   const bytes = new Uint8Array(data.buffer ?? data, data.byteOffset, data.byteLength);
   const start = 4 + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
@@ -15,7 +15,7 @@ async function piped(bytes, transform) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// zlib streams, as Python's zlib.compress and zlib.decompress have them.
+// zlib streams, compatible with Python's zlib.compress and zlib.decompress.
 const inflated = (bytes) => piped(bytes, new DecompressionStream("deflate"));
 const deflated = (bytes) => piped(bytes, new CompressionStream("deflate"));
 

@@ -1,4 +1,4 @@
-// Small pieces of the page. Text from outside enters as text, never as HTML.
+// Small helpers for the page. Outside text is inserted as text, never as HTML.
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
@@ -37,7 +37,7 @@ function fitted(canvas) {
   const ratio = pixelRatio();
   const { clientWidth: width, clientHeight: height } = canvas;
   const size = [Math.round(width * ratio), Math.round(height * ratio)];
-  // Setting a size clears a canvas and costs much, also where it stays the same.
+  // Setting a size clears a canvas and is slow, even if the size stays the same.
   if (canvas.width !== size[0]) canvas.width = size[0];
   if (canvas.height !== size[1]) canvas.height = size[1];
   const context = canvas.getContext("2d");
