@@ -22,7 +22,7 @@ from occsim.trajectory import (
     outside_drawing,
     resample,
 )
-from occsim.walls import WallParams, detect_walls
+from occsim.walls import WallDetection, WallParams, detect_walls, propose_scale
 from occsim.world import World, world_from_image
 
 TOUR_READINGS = 1000
@@ -256,7 +256,7 @@ def _check_size(what: str, got: tuple[int, ...], shape: tuple[int, int]) -> None
 
 def building_from_drawing(
     drawing: Drawing,
-    sensor: Sensor,
+    sensor: Sensor | None = None,
     params: WallParams | None = None,
     *,
     working_px: int = MAX_SIDE_PX,
@@ -270,8 +270,10 @@ def building_from_drawing(
     ----------
     drawing : Drawing
         What the architect gave.
-    sensor : Sensor
-        The tour shows the building to it, in `TOUR_READINGS` at most.
+    sensor : Sensor, optional
+        The tour shows the building to it, in `TOUR_READINGS` at most. By default its
+        range is the length of a door that is proposed for the drawing, as in the
+        source; see `occsim.walls.propose_scale`.
     params : WallParams, optional
         Settings of the detection; automatic by default.
     working_px : int, optional
@@ -291,11 +293,12 @@ def building_from_drawing(
     drawing = Transform.fit(drawing.shape, working_px).drawing(drawing)
     is_smaller = drawing.shape != (height, width)
     params = params or WallParams()
-    found = detect_walls(drawing, params).mask
-    tour = _first_tour(World(occupied=found), sensor)
+    found = detect_walls(drawing, params)
+    sensor = sensor or _proposed_sensor(found)
+    tour = _first_tour(World(occupied=found.mask), sensor)
     return Building(
         drawing=drawing,
-        found=found,
+        found=found.mask,
         trajectory=tour,
         tour=tour,
         wall_params=params,
@@ -303,6 +306,11 @@ def building_from_drawing(
         title=drawing.name,
         about=f"Scaled down from {width} × {height} px." if is_smaller else "",
     )
+
+
+def _proposed_sensor(found: WallDetection) -> Sensor:
+    proposal = propose_scale(found)
+    return Sensor() if proposal is None else Sensor(range_px=proposal.door_px)
 
 
 def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:

@@ -14,7 +14,6 @@ from occsim import (
     MapSettings,
     ParameterError,
     Prior,
-    Sensor,
     load_sample,
 )
 from occsim._types import FloatArray
@@ -77,10 +76,10 @@ def with_walls(building: Building) -> Building:
     return replace(building, found=building.walls_found)
 
 
-def own_building(drawing: Drawing, sensor: Sensor, working_px: int) -> Building:
+def own_building(drawing: Drawing, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
     with core():
-        return building_from_drawing(drawing, sensor, working_px=working_px)
+        return building_from_drawing(drawing, working_px=working_px)
 
 
 def anonymous(building: Building) -> Building:

@@ -149,8 +149,7 @@ def _map_page() -> None:
 
 
 def _map(loaded: Drawing) -> None:
-    sensor = state.settings().sensor
-    state.open_own(compute.own_building(loaded, sensor, _working_px()))
+    state.open_own(compute.own_building(loaded, _working_px()))
     state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 

@@ -66,7 +66,11 @@ def _forget() -> None:
 def _facts() -> None:
     building = state.building()
     if building.door_px is None or building.metres_per_px is None:
-        st.info("No door measured yet: lengths are in pixels only.")
+        st.info(
+            "No door measured yet: lengths are in pixels only. The range, "
+            f"{building.sensor.range_px:.0f} px, is the length of a door as proposed "
+            "from the drawing's doors or the thickness of its walls."
+        )
         return
     st.markdown(
         f"Door **{lengths.length(building.door_px)}**  \n"

@@ -6,9 +6,9 @@ from functools import partial
 import streamlit as st
 
 from occsim.walls import STAGE_NOTES, Slider, WallParams
-from pages._ui import compute, state
+from pages._ui import compute, state, words
 from pages._ui.state import boards as kept
-from pages._ui.your_building import masks
+from pages._ui.your_building import lengths, masks
 
 COLUMNS = 5
 """Height of the pictures: two rows, large enough to see a door leaf removed."""
@@ -17,6 +17,7 @@ COLUMNS = 5
 def show() -> None:
     """Show every stage with its sentence and its sliders, and where the mask errs."""
     building = state.building()
+    st.markdown(_how_sure())
     stages = compute.stage_pictures(building.drawing, building.wall_params)
     cells = [partial(_stage, title, image) for title, image in stages]
     cells += [_errors, _all_stages]
@@ -25,6 +26,26 @@ def show() -> None:
         for column, cell in zip(columns, cells[start : start + COLUMNS], strict=False):
             with column:
                 cell()
+
+
+def _how_sure() -> str:
+    """How sure the detection is, in a line, and what to look at first."""
+    building = state.building()
+    sure = compute.detection(building.drawing, building.wall_params).certainty
+    if not building.walls_found.any():
+        return (
+            "**No walls were found.** Three things to try: crop to the plan "
+            "(1 Drawing), lower the darkness of ink or the thinnest wall below, or "
+            "draw the walls by hand (4 Corrections)."
+        )
+    facts = [
+        f"**Sure to {words.percent(sure.confidence)}.** Most walls are about "
+        f"{lengths.length(sure.wall_px)} thick",
+        f"{words.percent(sure.removed_share)} of the ink was left out",
+    ]
+    if sure.dropped:
+        facts.append(f"{lengths.count(sure.dropped, 'piece')} dropped")
+    return " ".join(["; ".join(facts) + ".", *sure.notes])
 
 
 def _stage(title: str, image: bytes) -> None:
