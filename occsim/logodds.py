@@ -17,7 +17,7 @@ LATTICE_NATS = 2.0**-36
 
 EXACT_BELOW_NATS = LATTICE_NATS * 2.0**53
 """131,072 nats. One reading adds at most ln 9: the sum of a cell is exact for 59,000
-readings of that cell, and with a prior of 0.09 or 0.9 taken off at each for 29,000."""
+readings of that cell, and with a prior of 0.09 or 0.9 subtracted at each for 29,000."""
 
 DECISION_EPS = 1e-9
 """A cell is declared wall where its log-odds lie below minus this, in nats.

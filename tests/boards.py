@@ -1,4 +1,4 @@
-"""What the drawing board's script would commit, for tests without a browser."""
+"""The commits of the drawing board's script, for tests without a browser."""
 
 import base64
 import zlib

@@ -1,4 +1,4 @@
-"""How hypothesis runs, and a watch on what pages log."""
+"""Settings of hypothesis, and a check of the pages' log."""
 
 import logging
 import os
@@ -6,7 +6,7 @@ import os
 import pytest
 from hypothesis import HealthCheck, settings
 
-# A busy machine is no fault of the code: no test fails because it took long.
+# No deadline: a test must not fail because the machine is busy.
 settings.register_profile(
     "here", deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -16,7 +16,7 @@ settings.load_profile("ci" if os.environ.get("CI") else "here")
 
 @pytest.fixture(autouse=True)
 def pages_log_no_error(request):
-    """Fail a test in which a page or a callback met an error that it had to swallow.
+    """Fail a test in which a page or a callback caught and logged an error.
 
     A page shows a sentence instead of a traceback, so `AppTest.exception` is empty.
     A test that provokes such an error is marked ``provokes_errors``.

@@ -1,7 +1,7 @@
-"""What the library needs, read from pyproject.toml, a requirement a line.
+"""The library's requirements, read from pyproject.toml, one a line.
 
 ``python tests/library_requirements.py oldest`` pins each to its lower bound, ``newest``
-leaves the ranges as they are. Both include what runs its tests.
+leaves the ranges as they are. Both include the test tools.
 """
 
 import re

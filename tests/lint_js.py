@@ -25,7 +25,7 @@ def main() -> int:
     for folder in (path.parent for path in folders):
         component = import_module(f"pages._ui.components.{folder.name}")
         found.update(complaints(script_paths(folder, component.SCRIPTS)))
-    # One component need not call all that is shared; some component should.
+    # Each shared function must be called by some component, not by each of them.
     wrong = [
         (path, line, words)
         for (path, line, words), times in sorted(found.items())
@@ -38,7 +38,7 @@ def main() -> int:
 
 
 def complaints(paths: tuple[Path, ...]) -> list[tuple[Path, int, str]]:
-    """What the linter says of these scripts, joined: script, line in it, words."""
+    """The linter's findings in these scripts, joined: script, line in it, message."""
     lines = [
         (path, number, text)
         for path in paths
@@ -60,7 +60,7 @@ def oxlint(path: Path) -> str:
         text=True,
         check=False,
     )
-    # A linter that did not run finds nothing.
+    # A linter that failed to run also reports no findings.
     if done.returncode not in (0, 1) or done.stderr:
         raise RuntimeError(f"oxlint did not run: {done.stdout}{done.stderr}")
     return done.stdout

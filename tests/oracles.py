@@ -1,7 +1,7 @@
-"""Deliberately naive versions of the library's kernels, one loop inside the other.
+"""Deliberately naive versions of the library's kernels, as nested loops.
 
-They follow the definitions word for word, share no code with the library but its
-parameters, and are only ever run on small worlds.
+They follow the definitions word for word, share only the parameters with the library,
+and run only on small worlds.
 """
 
 import math
@@ -60,7 +60,7 @@ def in_view(dx, dy, theta, sensor):
 
 
 def classify(occupied, pose, row, col, sensor):
-    """What one reading says of one pixel: "empty", "object" or None."""
+    """The class of one pixel in one reading: "empty", "object" or None."""
     x, y, theta = pose
     dx, dy = col + 0.5 - x, row + 0.5 - y
     distance = math.hypot(dx, dy)

@@ -1,4 +1,4 @@
-"""What the library's functions and parameters make of arguments of other types."""
+"""How the library's functions and parameters treat arguments of other types."""
 
 import inspect
 import traceback
@@ -54,7 +54,7 @@ WITH_REGION = {
 
 
 def counts_of(result):
-    """What two results must share to be the same."""
+    """The counts in which two results must agree."""
     names = ("log_odds", "tp", "fp", "fn", "precision", "recall")
     return [np.asarray(getattr(result, n)) for n in names if hasattr(result, n)]
 
@@ -266,7 +266,7 @@ GOOD = {
     "sample_names": {},
 }
 
-# Arguments that are wanted whole: any other type is a TypeError, whatever it holds.
+# Arguments of a fixed type: any other type is a TypeError, whatever its value.
 WHOLE = {"world", "trajectory", "sensor", "grid", "prior", "prior_map", "evidence"}
 WHOLE |= {"occupancy_map", "sweep", "surface", "front", "sweeps", "fronts"}
 WHOLE |= {"is_wall", "truth", "wall_mask"}
@@ -324,10 +324,11 @@ def test_what_is_wrong_gets_one_sentence_of_the_library(name, argument):
         except (OccsimError, TypeError) as raised:
             error = raised
         else:
-            # Some of it is right: a number for a share, text for a choice, no parts.
+            # Some of these values are valid: a number for a share, text for a choice,
+            # no parts.
             assert argument not in WHOLE or value == {}, what
             continue
-        # Not one of numpy's from somewhere below.
+        # Not an error raised inside numpy.
         assert traceback.extract_tb(error.__traceback__)[-1].filename.startswith(HOME)
         assert "\n" not in str(error)
         assert 10 < len(str(error)) < 250

@@ -1,4 +1,4 @@
-"""What a browser commits from the drawing board is checked before it is believed."""
+"""A commit of the drawing board is checked before it is used."""
 
 import base64
 import json
@@ -60,7 +60,7 @@ def test_the_mask_is_the_corrected_base():
     np.testing.assert_array_equal(shown.mask(), overlay.apply(base))
 
 
-def test_each_commit_says_everything_so_that_one_may_be_lost():
+def test_each_commit_is_complete_so_that_one_may_be_lost():
     imposed = document(overlay=box(0, 0, 9, 9))
     first = box(0, 0, 30, 9)
     both = Corrections.from_masks(
@@ -70,7 +70,7 @@ def test_each_commit_says_everything_so_that_one_may_be_lost():
         commit(both, imposed.overlay), imposed, mode := BoardMode.WALLS
     )
     assert last.overlay == both
-    # What was undone meanwhile is as it was imposed.
+    # Undone changes are as in the imposed document.
     undone = commit(imposed.overlay, imposed.overlay)
     assert decode_commit(undone, imposed, mode) == imposed
 

@@ -161,7 +161,7 @@ def test_turning_turns_everything():
     assert (turn.door_px, turn.metres_per_px) == (10.0, 0.09)
 
 
-def test_four_turns_are_none():
+def test_four_quarter_turns_change_nothing():
     again = building()
     for _ in range(4):
         again = turned(again, 1)

@@ -20,7 +20,7 @@ from tests.oracles import naive_evidence
 
 
 def readings(evidence):
-    """Per reading a list of (cell, log-odds), as the oracle gives them."""
+    """Per reading a list of (cell, log-odds), in the oracle's form."""
     bounds = zip(evidence.indptr[:-1], evidence.indptr[1:], strict=True)
     return [
         list(zip(evidence.cell[a:b].tolist(), evidence.log_odds[a:b], strict=True))
@@ -163,7 +163,7 @@ def test_a_grid_of_another_size_is_refused():
 
 
 def dense(evidence):
-    """All readings as an array (S, R, C), NaN where one says nothing."""
+    """All readings as an array (S, R, C), NaN where a reading has no entry."""
     cells = np.full((evidence.n_readings, evidence.grid.n_cells), np.nan)
     cells[evidence.reading, evidence.cell] = evidence.log_odds
     return cells.reshape(-1, *evidence.grid.shape)
@@ -337,7 +337,7 @@ def test_the_own_pixel_is_seen_whatever_the_heading_and_its_width():
 
 @pytest.mark.parametrize("x", [1e9, -1e18, 1e300])
 @pytest.mark.parametrize("range_px", [20.0, 1e300])
-def test_a_robot_beyond_all_bounds_harms_nothing(x, range_px):
+def test_a_robot_far_outside_sees_nothing(x, range_px):
     world = room()
     near = poses_in(world, 1, seed=0)[0]
     log = collect_evidence(

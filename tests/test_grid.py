@@ -48,7 +48,7 @@ def test_a_point_belongs_to_the_cell_by_floor():
     np.testing.assert_array_equal(grid.cell_index(x, y), [0, 0, 4, 5, -1, -1, -1])
 
 
-def test_sizes_are_such_as_the_array_library_counts_with():
+def test_sizes_fit_into_an_int32():
     largest = Grid(height_px=3, width_px=4, cell_px=2**31 - 1)
     assert largest.share(np.ones((3, 4), dtype=bool)).tolist() == [[1.0]]
     with pytest.raises(

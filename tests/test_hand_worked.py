@@ -113,7 +113,7 @@ def evidence_of(behind_hit):
 
 
 def dense(evidence, reading):
-    """One reading as an array of cells, NaN where it says nothing."""
+    """One reading as an array of cells, NaN where it has no entry."""
     cells = np.full(evidence.grid.n_cells, np.nan)
     own = slice(*evidence.indptr[reading : reading + 2])
     cells[evidence.cell[own]] = evidence.log_odds[own]

@@ -1,4 +1,4 @@
-"""What a stranger's file is taken for, and the sentence that says where it goes."""
+"""The kind of a user's file, and the sentence that says where to open it."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Imports run one way, and each layer keeps to what it may know."""
+"""Imports run one way, and each layer imports only what it may."""
 
 import ast
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What the pages tell a student is true of the drawings that they show."""
+"""The statements of the pages hold for the drawings that they show."""
 
 import pytest
 

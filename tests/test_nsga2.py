@@ -122,7 +122,7 @@ def test_the_interpolated_objective_is_the_interpolated_sweep(case):
 
 
 @pytest.mark.parametrize("elitism", Elitism)
-def test_undefined_objectives_are_survived(elitism):
+def test_undefined_objectives_do_not_stop_the_search(elitism):
     # Nothing is seen: precision and recall are NaN for every pair.
     grid = Grid(height_px=1, width_px=2, cell_px=1)
     wall = np.array([[True, False]])

@@ -70,7 +70,7 @@ def own(app):
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_every_page_opens_without_a_word_said(page):
+def test_every_page_opens_without_a_message(page):
     app = launch(page)
     assert not app.error
 

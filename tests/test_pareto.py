@@ -198,7 +198,7 @@ def test_a_front_point_may_be_attained_only_at_a_tie():
     np.testing.assert_array_equal(exact.is_single, [[False, True]])
 
 
-def test_what_only_the_tie_band_brings_about_is_on_no_front():
+def test_points_that_exist_only_in_the_tie_band_are_on_no_front():
     """Two space cells that tie at one half, read 3 and 7 times, S = 0 and w = -2, -6.
 
     Of true log-odds above 0 both are declared wall. In between, at 1e-9 / 6, only the

@@ -1,4 +1,4 @@
-"""What the player is sent, and how what a browser commits is checked."""
+"""The data sent to the player, and the checks on its commits."""
 
 import json
 import math
@@ -69,7 +69,7 @@ def test_what_is_no_document_changes_nothing(commit):
     assert decode_commit(commit, IMPOSED) == IMPOSED
 
 
-def test_a_commit_on_an_older_document_is_not_believed():
+def test_a_commit_on_an_older_document_is_ignored():
     late = encode_document(PlayerDocument(rev=3, p_wall=0.7))
     assert decode_commit(late, IMPOSED) == IMPOSED
 

@@ -1,4 +1,4 @@
-"""The pages on sweeps and fronts: every control once, and what must not kill them."""
+"""The pages on sweeps and fronts: every control once, and cases without a result."""
 
 import math
 
@@ -137,7 +137,7 @@ def test_the_slider_walks_along_the_front():
     assert pair == (front.p_wall[other], front.p_space[other])
 
 
-def test_a_front_of_one_point_is_said():
+def test_a_front_of_one_point_is_reported():
     """Prior and truth are the same wall: where it is seen, one pair is best."""
     app = of_one_sheet(
         EXPLORER, Settings(range_px=20, cell_px=4), prior_wall=True, true_wall=True
@@ -145,7 +145,7 @@ def test_a_front_of_one_point_is_said():
     assert "One pair attains the highest precision and the highest recall" in texts(app)
 
 
-def test_an_empty_set_c_is_said():
+def test_an_empty_set_c_is_reported():
     """Only the sides of walls that face the robot are seen: recall stays below 0.95."""
     app = open_with(EXPLORER, min_recall=0.95, behind_hit=BehindHit.UNSEEN)
     assert "Set C is empty" in texts(app)
@@ -261,7 +261,7 @@ def of_one_sheet(page, settings, **parts):
 
 
 @pytest.mark.parametrize("case", SAD)
-def test_a_sad_case_is_explained_and_no_page_dies(case):
+def test_a_case_without_a_result_is_explained_on_every_page(case):
     parts, words = SAD[case]
     app = of_one_sheet(SWEEP, Settings(range_px=20, cell_px=4), **parts)
     assert words in texts(app)
@@ -286,7 +286,7 @@ def test_a_drawing_that_cannot_be_studied_is_left_out_with_a_reason():
     assert len(app.table[0].value) == 15
 
 
-def test_undefined_precision_is_hatched_and_said():
+def test_undefined_precision_is_hatched_and_reported():
     """The robot looks away from the wall, so that no cell is declared occupied."""
     away = {"prior_wall": True, "true_wall": True, "pose": (30.0, 8.0, -math.pi / 2)}
     app = of_one_sheet(SWEEP, Settings(range_px=7, cell_px=4), **away)
@@ -323,7 +323,7 @@ def test_what_is_pointed_at_is_what_is_drawn(run_b):
     assert words[at] == f"{100 * recall:.1f} %"
 
 
-def test_a_hole_in_a_surface_has_words():
+def test_an_undefined_part_of_a_surface_has_a_text():
     view = surfaces.SurfaceView(
         Objective.PRECISION,
         Surface.EXACT,

@@ -1,4 +1,4 @@
-"""Project files: a round trip loses nothing, and nothing hostile gets in."""
+"""Project files: a round trip loses nothing, and hostile files are refused."""
 
 import io
 import json
@@ -180,7 +180,7 @@ def test_a_file_of_the_first_release_opens():
     assert opened.digest == saved.digest
     np.testing.assert_array_equal(opened.walls_found, saved.walls_found)
     np.testing.assert_array_equal(opened.truth, saved.truth)
-    # Only what changed something is known of the strokes.
+    # Of the strokes, only the changed pixels are kept.
     expected = Corrections.between(frame(), saved.wall_mask)
     assert opened.corrections == expected
     assert opened.sensor == Sensor(range_px=7.5)
@@ -236,13 +236,13 @@ def directory(data, name):
 
 
 def with_declared_size(data, name, size):
-    """The archive, its table of contents lying about the size of a file."""
+    """The archive with a wrong size of a file in its table of contents."""
     at = directory(data, name)
     return data[: at + 24] + struct.pack("<I", size) + data[at + 28 :]
 
 
 def with_offset(data, name, offset):
-    """The archive, its table of contents lying about where a file begins."""
+    """The archive with a wrong offset of a file in its table of contents."""
     at = directory(data, name)
     return data[: at + 42] + struct.pack("<I", offset) + data[at + 46 :]
 
@@ -416,12 +416,12 @@ def test_a_hostile_file_is_refused_in_one_sentence(kind):
     assert "mine.zip" in str(refused.value)
     message = str(refused.value)
     assert "\n" not in message
-    message.encode()  # whatever stands in the file, a screen can show it
+    message.encode()  # the message can be shown, whatever the file holds
 
 
 @pytest.mark.parametrize("key", ["format", "version", "title", "door_px", "settings"])
 def test_lists_in_lists_are_refused_however_deep(key):
-    # Around the depth at which json, and what writes the message, give up.
+    # Around the depth at which json, and the code for the message, fail.
     for depth in range(900, 1001, 2):
         with pytest.raises(ProjectError, match="cannot be opened"):
             load_project(archive_with(nested(key, depth)))

@@ -1,4 +1,5 @@
-"""The five reference drawings: what each promises, and that the files are as made."""
+"""The five reference drawings: their properties, and that the script makes their
+files."""
 
 import cv2
 import numpy as np

@@ -1,4 +1,4 @@
-"""What a session keeps: links, defaults, undo, late events, reloads, failures."""
+"""State of a session: links, defaults, undo, late events, reloads, failures."""
 
 import io
 import re
@@ -254,7 +254,7 @@ def test_a_late_event_of_a_widget_does_not_undo_a_reset(session):
     assert state.settings().p_wall == 0.77
 
 
-def test_the_choice_of_a_building_that_was_undone_is_not_heard(session):
+def test_the_choice_of_a_building_that_was_undone_is_ignored(session):
     state.edit(with_title("mine"))
     bound = state.bind_choice()
     state.undo()
@@ -286,7 +286,7 @@ def test_a_link_to_a_building_that_is_gone_says_so_and_keeps_the_settings():
     assert app.session_state["choice"] == state.OPENING
 
 
-def test_who_opens_a_link_goes_on_with_a_copy(session):
+def test_a_session_from_a_link_edits_a_copy(session):
     state.edit(with_title("hers"))
     key = state.work_key()
     assert works.WORKS.find(key).title == "hers"

@@ -92,7 +92,7 @@ def test_a_study_is_every_drawing_at_every_cell_size():
     assert steps[0].case.sweep.precision.shape == (10, 10)
 
 
-def test_a_study_goes_on_where_it_stopped(tmp_path):
+def test_a_stopped_study_continues(tmp_path):
     drawing, cells = drawing_of(room()), (5, 10)
     next(study_cases([drawing], cells, folder=tmp_path))
     steps = list(study_cases([drawing], cells, folder=tmp_path))
@@ -148,7 +148,7 @@ def test_poses_in_walls_are_left_out():
     ],
     ids=["a drawing without walls", "a sensor that reaches none"],
 )
-def test_a_study_without_a_hit_is_told_as_it_is(walls, poses):
+def test_a_study_without_a_hit_is_reported_as_such(walls, poses):
     drawing = drawing_of(walls, poses=poses)
     short = replace(drawing, sensor=Sensor(range_px=3.0))
     found = [run_case(short, 5)]
@@ -365,7 +365,7 @@ def test_without_matplotlib_the_command_writes_tables_and_says_so(
     assert not list(tmp_path.glob("*.png"))
 
 
-def test_the_study_takes_the_prior_off_at_every_reading_unless_told_otherwise(tmp_path):
+def test_the_study_subtracts_the_prior_at_every_reading_by_default(tmp_path):
     """As in the source, whatever the default of the library's maps is."""
     assert main(["study", "d", "--cells", "50", "--out", str(tmp_path)]) == 0
     (kept,) = (tmp_path / "cases").iterdir()

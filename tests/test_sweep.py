@@ -90,7 +90,7 @@ def test_sweep_equals_fusing_and_scoring_every_pair(
 
 
 def test_strings_name_the_same_choices(case_of_two):
-    """Each differs from the other choice, so none is taken for it in silence."""
+    """Each differs from the other choice, so a mix-up would be noticed."""
     for rule in UpdateRule:
         for region in Region:
             by_value = sweep_priors(*case_of_two, rule=rule.value, region=region.value)
@@ -141,10 +141,10 @@ def test_counts_change_only_where_a_step_starts(case, rule):
     rule=RULES,
 )
 def test_levels_are_exact_on_the_lattice_for_any_evidence(log_odds, twice, rule):
-    """One cell of each log-odds, read once, or once and then with nothing to say.
+    """One cell of each log-odds, read once, or once and then with log-odds 0.
 
-    Log-odds beside the tie band all but cancel it, and huge ones leave no prior any
-    say; both sides of every step are compared with the decision itself.
+    Log-odds near the tie band almost cancel it, and huge ones outweigh every prior;
+    both sides of every step are compared with the decision itself.
     """
     n, repeats = len(log_odds), 1 + twice
     evidence = EvidenceLog(
@@ -162,7 +162,7 @@ def test_levels_are_exact_on_the_lattice_for_any_evidence(log_odds, twice, rule)
             assert step(level) == np.count_nonzero(sums + weight * level < -1e-9)
 
 
-def test_nothing_seen_scores_nothing_and_warns_of_nothing():
+def test_without_readings_scores_are_undefined_without_a_warning():
     grid = Grid(height_px=2, width_px=2, cell_px=1)
     evidence = log_of(grid, [{}, {}])
     truth = np.eye(2, dtype=bool)

@@ -288,7 +288,7 @@ def test_robot_turns_on_the_spot_at_waypoints():
     np.testing.assert_allclose(poses, expected, atol=1e-12)
 
 
-def test_turns_may_be_told_waypoint_by_waypoint():
+def test_turns_may_be_given_waypoint_by_waypoint():
     # A free line from (0, 0) over (2, 0) to a waypoint at (4, 0), where it turns.
     line = [(0, 0), (2, 0), (4, 0), (4, 0)]
     poses = resample(line, 3, turn_at_waypoints=[False, False, True, False]).poses

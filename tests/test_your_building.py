@@ -60,7 +60,7 @@ def with_rooms():
 
 
 def commit(app, key, **edits):
-    """Let the board of this key say what a hand drew on it."""
+    """Commit a drawn document from the board of this key."""
     imposed = app.session_state["boards"][key].imposed
     says = {"rev": imposed.rev, "token": imposed.token, **edits}
     app.session_state[key] = {"committed": says}
@@ -78,14 +78,14 @@ def dots(*rows):
 
 
 def paint(app, key, corrections):
-    """Let the board say that all its corrections are these now."""
+    """Commit these corrections as all the corrections of the board."""
     imposed = app.session_state["boards"][key].imposed
     tiles = committed_tiles(imposed.corrections, corrections)
     return commit(app, key, tiles=tiles)
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_every_section_opens_without_a_word_said(section):
+def test_every_section_opens_without_a_message(section):
     assert not at(section).error
 
 
@@ -342,7 +342,7 @@ def test_every_trajectory_file_is_taken(kind):
     )
 
 
-def test_the_unit_of_the_angles_may_be_told_afterwards():
+def test_the_unit_of_the_angles_may_be_chosen_afterwards():
     app = at("6 Trajectory", way="Files")
     app = upload(app, "Trajectory", "a.csv", b"100,100,90\n100,110,180\n", "text/csv")
     assert "degrees or radians" in said(app.error)[0]

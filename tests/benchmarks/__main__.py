@@ -1,4 +1,5 @@
-"""Print what the library's costly calls take: ``python -m tests.benchmarks [TOPIC]``.
+"""Print the times of the library's costly calls: ``python -m tests.benchmarks
+[TOPIC]``.
 
 A topic is a module of this folder that has a function ``rows``.
 """

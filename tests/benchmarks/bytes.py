@@ -1,4 +1,4 @@
-"""The bytes that the player is sent for a run of the cone, beside the log as it is."""
+"""The bytes sent to the player for a run, compared with the log in memory."""
 
 from collections.abc import Iterator
 

@@ -1,7 +1,7 @@
 """A small app with one drawing board, for its tests: `?mode=walls` and so on.
 
-It keeps the two documents as `drawing_board` asks its caller to, and writes what Python
-knows below the board. A checkbox takes the board off the screen.
+It keeps the two documents as `drawing_board` requires, and shows Python's state below
+the board. A checkbox takes the board off the screen.
 """
 
 import hashlib

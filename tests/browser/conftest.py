@@ -1,4 +1,4 @@
-"""Fixtures for what a person does: the app's address, windows of a real browser."""
+"""Fixtures for browser tests: the app's address, windows of a real browser."""
 
 import contextlib
 
@@ -15,7 +15,7 @@ from tests.browser.running import (
 
 @pytest.fixture(scope="session")
 def app_url(tmp_path_factory):
-    """The address of the app; what its server wrote is read when all is done."""
+    """The address of the app; the server's log is checked at the end."""
     log_path = tmp_path_factory.mktemp("app") / "server.log"
     with running_app(log_path) as url:
         yield url
@@ -29,7 +29,7 @@ def browser():
 
 
 class Windows:
-    """A browser all of whose windows are watched for errors."""
+    """A browser whose windows are all watched for errors."""
 
     def __init__(self, browser):
         self.browser = browser
@@ -46,7 +46,7 @@ class Windows:
 
     def close(self):
         for context in self.contexts:
-            with contextlib.suppress(Error):  # the browser may be gone already
+            with contextlib.suppress(Error):  # the browser may be closed already
                 context.close()
 
 

@@ -1,4 +1,4 @@
-"""What the tests of the map player share: the run it shows first, and hands for it."""
+"""Helpers for tests of the map player: its first run, and its controls."""
 
 from functools import cache
 
@@ -32,7 +32,7 @@ def shown(player, *names):
 
 
 def inspect(player):
-    """Numbers behind the picture: hover, pin, scale, log-odds, the pinned history."""
+    """State of the player: hover, pin, scale, log-odds, the pinned history."""
     return player.evaluate("root => root.inspect()")
 
 
@@ -63,6 +63,6 @@ def wait_until(page, player, condition):
 
 
 def settled(page):
-    """Wait until the page has answered what the player committed."""
+    """Wait until the page has processed the player's commit."""
     page.wait_for_timeout(600)
     page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")

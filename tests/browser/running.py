@@ -63,7 +63,7 @@ def running_app(log_path: Path, script: str = "app.py") -> Iterator[str]:
 
 
 def no_complaint(log_path: Path) -> None:
-    """Fail where the server wrote of an error or a warning."""
+    """Fail where the server logged an error or a warning."""
     text = log_path.read_text()
     for complaint in ("Traceback", "Warning"):
         where = text.find(complaint)
@@ -71,10 +71,10 @@ def no_complaint(log_path: Path) -> None:
 
 
 def complaints(line: ConsoleMessage) -> list[str]:
-    """What a console line complains of; Streamlit's probes for its base path aside.
+    """Errors in a console line, except Streamlit's probes for its base path.
 
     On a deep link its client first asks for the health of a server below that path,
-    and the browser logs the 404 of that question.
+    and the browser logs a 404 for that request.
     """
     where = line.location.get("url", "")
     is_probe = "404" in line.text and "_stcore" in where

@@ -1,4 +1,4 @@
-"""The drawing board in a real browser: what is drawn is what Python gets."""
+"""The drawing board in a real browser: Python receives what is drawn."""
 
 import hashlib
 import json
@@ -20,7 +20,7 @@ READY = ".board[data-ready='1']"
 
 @pytest.fixture(scope="module")
 def board_url(tmp_path_factory):
-    """The address of a small app that holds nothing but a board."""
+    """The address of a small app with a board and nothing else."""
     log_path = tmp_path_factory.mktemp("board") / "server.log"
     with running_app(log_path, "tests/browser/board_app.py") as url:
         yield url
@@ -28,7 +28,7 @@ def board_url(tmp_path_factory):
 
 
 class Board:
-    """A board on a page, with the hand of a person and the eyes of Python."""
+    """A board on a page: input by mouse and keyboard, and the state in Python."""
 
     def __init__(self, page, url, mode="walls", size="small"):
         self.page = page
@@ -69,7 +69,7 @@ class Board:
         return json.loads(self.page.locator("[data-testid=stText]").inner_text())
 
     def until(self, condition):
-        """What Python knows, once it fulfils a condition."""
+        """Python's state, once it fulfils a condition."""
         deadline = time.monotonic() + WAIT_SECONDS
         while not condition(facts := self.python()):
             assert time.monotonic() < deadline, facts
@@ -136,8 +136,8 @@ def test_the_last_of_strokes_over_each_other_holds(board):
         board.drag((60, 60), (170, 130))
     board.steps(5)
     facts = board.agrees()
-    # Of the outline's walls of 4 px the outer half is left by the cleared rectangle,
-    # and what the eraser took of the corners is gone.
+    # The cleared rectangle leaves the outer half of the outline's walls of 4 px; the
+    # eraser removed a part of the corners.
     assert 0 < facts["added"] < 2 * 2 * (110 + 70 + 4)
     assert facts["erased"] > 110 * 70
 
@@ -202,7 +202,7 @@ def test_new_stroke_forgets_what_was_undone(board):
 
 def test_stroke_lands_where_it_was_drawn_after_zoom_and_pan(board):
     before = board.state()["camera"]
-    board.click(1, 1)  # the wheel belongs to the page until the board was touched
+    board.click(1, 1)  # the wheel scrolls the page until the board was clicked
     board.page.mouse.move(*board.screen(300, 50))
     board.page.mouse.wheel(0, -400)
     expect(board.root.locator("[data-part=facts]")).not_to_contain_text(
@@ -275,7 +275,7 @@ def test_hundreds_of_quick_strokes_all_arrive(board):
 
 
 def curves(n, seed=4):
-    """Short curves on 1500 x 1000 px, as of a hand that traces walls."""
+    """Short curves on 1500 x 1000 px, as in tracing walls by hand."""
     rng = random.Random(seed)
     for _ in range(n):
         x, y, angle = rng.uniform(60, 1440), rng.uniform(60, 940), rng.uniform(0, 6.3)
@@ -302,7 +302,7 @@ def test_a_commit_of_a_large_drawing_is_small(page, board_url, n, limit_kb):
     assert facts["commit_bytes"] < 1000 * limit_kb
 
 
-def test_a_lost_commit_is_made_good_by_the_next(page, board_url):
+def test_the_next_commit_replaces_a_lost_one(page, board_url):
     lost, is_open = [], threading.Event()
 
     def relay(socket):
@@ -415,7 +415,7 @@ def test_free_hand_line_becomes_a_polyline_of_few_points(path):
     assert not any(is_waypoint for *_, is_waypoint in points)
 
 
-def test_path_through_a_wall_is_said_to_run_through_it(path):
+def test_a_path_through_a_wall_is_reported(path):
     path.click(60, 60)
     path.click(60, 160)  # the wall lies between, on rows 100 to 109
     expect(path.root.locator("[data-part=facts]")).to_contain_text("1 part in walls")

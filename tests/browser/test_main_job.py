@@ -1,4 +1,4 @@
-"""The main job as a person does it: open, change, leave and return, bring a drawing."""
+"""The main job in a browser: open, change, leave and return, upload a drawing."""
 
 from pathlib import Path
 
@@ -28,7 +28,7 @@ PLAYER = ".player[data-ready='1']"
 
 
 def two_rooms() -> bytes:
-    """A plan that is none of ours: two rooms with a door between them."""
+    """A plan that is not a sample: two rooms with a door between them."""
     image = np.full((200, 320), 255, np.uint8)
     cv2.rectangle(image, (12, 12), (307, 187), 0, 6)
     cv2.line(image, (160, 12), (160, 80), 0, 6)
@@ -49,7 +49,7 @@ def open_page(page, app_url, query=""):
 
 
 def settled(page):
-    """Wait until the server has nothing more to say."""
+    """Wait until the server has finished its run."""
     page.wait_for_timeout(500)
     page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")
 

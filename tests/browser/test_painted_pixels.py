@@ -1,4 +1,4 @@
-"""What the player paints: every cell's colour, and the sensor's cone, by occsim.
+"""The player's pixels: every cell's colour, and the sensor's cone, against occsim.
 
 The canvases are read back as pictures and compared with arrays that occsim computed.
 """
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.browser
 TINT = 0.55
 """Share of an overlay's colour over the grey beneath."""
 ROBOT_PX = 8
-"""Radius of what the robot and its rim cover, px of the canvas, and a little more."""
+"""Radius around the robot's mark, with a margin, px of the canvas."""
 STEPS_AND_PRIORS = [(0, 0.2, 0.9), (137, 0.63, 0.31), (420, 0.05, 1.0), (136, 1.0, 0.1)]
 
 
@@ -43,7 +43,7 @@ def painted(player, pane):
 
 
 def paper(player):
-    """The drawing without what is drawn over it, as large as its canvas."""
+    """The drawing without marks over it, at the size of its canvas."""
     url = player.evaluate("root => root.player.paper.toDataURL()")
     return decoded(url).astype(np.float64)
 

@@ -1,4 +1,4 @@
-"""The map player in a real browser: its numbers are occsim's, its controls work."""
+"""The map player in a real browser: its numbers equal occsim's, its controls work."""
 
 from itertools import product
 
@@ -75,7 +75,7 @@ def test_uninformative_prior_is_one_half_and_disables_the_sliders(page, app_url)
         assert player.locator(f"[data-slider={name}] input").is_disabled()
 
 
-def test_a_slider_tells_the_probability_that_it_sets(page, app_url):
+def test_a_slider_shows_the_probability_that_it_sets(page, app_url):
     player = open_player(page, app_url)
     slide(player, "p_wall", 0.35)
     slide(player, "p_space", 0.8)
@@ -151,7 +151,7 @@ def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
     assert player.locator("[data-part=scores]").is_visible()
 
 
-def test_hovering_tells_a_cells_numbers_on_both_pictures(page, app_url):
+def test_hovering_shows_a_cells_numbers_on_both_pictures(page, app_url):
     log, is_wall, _ = run()
     cell = most_read_wall_cell()
     player = open_player(page, app_url)
@@ -234,7 +234,7 @@ def test_a_telephone_shows_everything_in_one_column(page, app_url):
 
 
 def test_a_hidden_player_waits_and_comes_back_whole(page, app_url):
-    """A page that is left has no width for a moment: nothing can be drawn on it."""
+    """A page that is left has no width for a moment, so nothing can be drawn on it."""
     player = open_player(page, app_url)
     player.get_by_role("button", name="Play").click()
     before = player.locator("[data-pane=map] canvas").bounding_box()
@@ -254,7 +254,7 @@ REPLAY_SETTINGS = {
     "wall_share": ("Wall share of the prior", "End"),
     "truth_share": ("Wall share of the ground truth", "End"),
 }
-"""What sends the player another replay: label on the page, key or click."""
+"""Settings that send the player another replay: label on the page, key or click."""
 
 
 def change(page, player, name):
@@ -303,7 +303,7 @@ def test_a_pinned_cell_outlives_a_change_of_each_setting(page, app_url, name):
 
 
 def test_the_numbers_shown_after_a_change_of_cell_size_are_the_new_ones(page, app_url):
-    """A restored player scores and draws the new data, not what it held before."""
+    """A restored player scores and draws the new data, not its previous data."""
     player = open_player(page, app_url)
     page.mouse.click(*point_of(player, most_read_wall_cell()))
     scrub(player, 200)

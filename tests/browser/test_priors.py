@@ -1,4 +1,4 @@
-"""Sweep, explorer, best prior and study as a person uses them, in a real browser."""
+"""Sweep, explorer, best prior and study in a real browser."""
 
 import json
 import re
@@ -25,7 +25,7 @@ def open_page(page, app_url, path):
 
 
 def settled(page):
-    """Wait until the server has nothing more to say."""
+    """Wait until the server has finished its run."""
     page.wait_for_timeout(500)
     page.wait_for_selector("[data-testid=stApp][data-test-script-state=notRunning]")
     page.wait_for_timeout(300)

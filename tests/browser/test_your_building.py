@@ -1,4 +1,4 @@
-"""A person's own building, in a real browser: drawn on, left, kept and opened again."""
+"""A student's own building in a real browser: drawn on, left, kept and opened again."""
 
 import re
 import time
@@ -26,7 +26,7 @@ TOOLS = {
 
 
 class Workshop:
-    """The page, with the hand of a person."""
+    """The page, used by mouse and keyboard."""
 
     def __init__(self, page, url):
         self.page = page
@@ -38,7 +38,7 @@ class Workshop:
 
     def board(self, section):
         self.section(section)
-        # The board of the section that was left stays for a moment.
+        # The board of the previous section stays for a moment.
         self.page.locator(f"{READY} [data-tool={TOOLS[section]}]").wait_for()
         expect(self.page.locator(".board")).to_have_count(1)
         return self.page.locator(".board")
@@ -125,7 +125,7 @@ def test_corrections_survive_other_pages_and_are_undone(workshop, page):
     assert not workshop.project().wall_mask[260, 245]
 
 
-def test_no_stroke_of_a_quick_hand_is_lost(workshop, page):
+def test_every_stroke_of_a_quick_series_is_kept(workshop, page):
     workshop.board(CORRECTIONS)
     x, y = workshop.screen(100, 100)
     for k in range(40):

@@ -1,4 +1,5 @@
-"""Run the kept mutations: ``python -m tests.mutate [WORD ...]``; exit 1 if one lives.
+"""Run the kept mutations: ``python -m tests.mutate [WORD ...]``; exit 1 if one
+survives.
 
 Each is put into a copy of the project, one at a time, and its tests are run there.
 Words choose the mutations whose file or reason contains one of them.
@@ -17,11 +18,11 @@ from tests.mutate.mutation import Mutation
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT_S = 600
-"""A mutation that makes a loop endless is noticed by this."""
+"""Time limit, s: a mutation that makes a loop endless counts as noticed."""
 
 
 def copy_of_project(folder: Path) -> None:
-    """Copy what git knows of, as it stands in the working tree."""
+    """Copy the files that git tracks from the working tree."""
     names = subprocess.check_output(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,

@@ -8,7 +8,7 @@ ARITHMETIC: tuple[Mutation, ...] = (
         "np.ones_like(k) if once else 1.0 - k",
         "np.ones_like(k) if once else 1.0 - np.minimum(k, 40.0)",
         ("tests/test_mapping.py",),
-        "the prior is taken off at every reading, also after forty",
+        "the prior is subtracted at every reading, also after forty",
     ),
     Mutation(
         "occsim/mapping.py",

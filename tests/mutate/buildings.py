@@ -8,7 +8,7 @@ BUILDINGS: tuple[Mutation, ...] = (
         "np.asarray((mask | added) & ~erased)",
         "np.asarray(mask | added)",
         ("tests/test_corrections.py",),
-        "an erased pixel is no wall",
+        "an erased pixel is not wall",
     ),
     Mutation(
         "occsim/corrections.py",
@@ -120,7 +120,7 @@ BUILDINGS: tuple[Mutation, ...] = (
         'return not any("\\ud800" <= character <= "\\udfff" for character in value)',
         "return True",
         ("tests/test_project.py",),
-        "halves of characters are refused",
+        "lone surrogates are refused",
     ),
     Mutation(
         "pages/_ui/components/board/__init__.py",

@@ -1,4 +1,4 @@
-"""The list of kept mutations: what is changed, why it matters, who must notice."""
+"""The list of kept mutations: the change, why it matters, the tests that must fail."""
 
 from tests.mutate.arithmetic import ARITHMETIC
 from tests.mutate.buildings import BUILDINGS

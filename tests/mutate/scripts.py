@@ -1,4 +1,4 @@
-"""Mutations of the scripts: most are noticed in Node, what is painted in a browser."""
+"""Mutations of the scripts: most are noticed in Node, painting in a browser."""
 
 from tests.mutate.mutation import Mutation
 
@@ -15,7 +15,7 @@ OUTCOMES = f"{PIXELS}each_cell_has_the_colour_of_its_outcome"
 CONE = f"{PIXELS}the_cone_has_the_angle_and_the_reach_of_the_sensor"
 
 _ROWS = (
-    # file, old, new, who must notice, why
+    # file, old, new, the tests that must fail, why
     (
         "player/model.js",
         "logOdds < -model.decisionEps",
@@ -42,7 +42,7 @@ _ROWS = (
         "(model.once ? 1 : 1 - k)",
         "(model.once ? 1 : -k)",
         MODEL,
-        "prior taken off once too often",
+        "prior subtracted once too often",
     ),
     (
         "player/model.js",
@@ -210,7 +210,7 @@ _ROWS = (
         "if (p.pin === null) state.pin_px = null;",
         "",
         PLAYER,
-        "a pin outside the drawing that is told to Python",
+        "a pin outside the drawing that is sent to Python",
     ),
     (
         "player/player.js",
@@ -238,7 +238,7 @@ _ROWS = (
         "  showStep(p);\n",
         "  showStep(p);\n  if (p.series) say(p, stateWords(p));\n",
         f"{IN_BROWSER}a_screen_reader_hears_the_scores_when_the_replay_pauses",
-        "scores told on every frame",
+        "scores announced on every frame",
     ),
     (
         "player/replay.js",
@@ -259,14 +259,14 @@ _ROWS = (
         "{ p_space: 0, p_wall: 1 }",
         "{ p_space: 1, p_wall: 0 }",
         f"{IN_BROWSER}a_slider_tells_the_probability_that_it_sets",
-        "sliders that tell each other's probability",
+        "sliders that show each other's probability",
     ),
     (
         "player/inspector.js",
         'declaresWall(model, logOdds) ? "wall" : "no wall"',
         'declaresWall(model, logOdds) ? "no wall" : "wall"',
         f"{IN_BROWSER}hovering_tells_a_cells_numbers_on_both_pictures",
-        "a cell whose verdict is told the wrong way round",
+        "a cell whose class is shown the wrong way round",
     ),
     (
         "shared/bytes.js",

@@ -51,7 +51,7 @@ test("prior once counts the drawing once", () => {
   close(player.logOddsAt(model, 1), 0, "space cell");
 });
 
-test("subtract prior takes it off at every reading", () => {
+test("subtract prior subtracts l_0 at every reading", () => {
   const model = modelOf(byHand(), { ...handPrior, rule: "subtract_prior" });
   player.seek(model, 2);
   close(player.logOddsAt(model, 0), -Math.log(0.45 / 0.55), "wall cell");

@@ -1,1 +1,1 @@
-"""What no input and no speed of clicking may do."""
+"""Tests with damaged input and fast clicking."""

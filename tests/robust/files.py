@@ -1,7 +1,7 @@
 """Damaged files of every format, from a seed; ``python -m tests.robust.files``.
 
-Whatever happens to a file on its way, it is read or refused in a sentence: any error
-but an `OccsimError`, and any file that takes long, is a fault.
+A damaged file is read, or refused in a sentence: any error but an `OccsimError`, and
+any file that takes long, is a fault.
 """
 
 import argparse
@@ -31,7 +31,7 @@ from tests.robust import hostile
 MAX_SECONDS = 10.0
 FRAME = MetricFrame(height_px=100, metres_per_px=0.05)
 
-# What a damaged length or count often becomes, and what parsers stumble over.
+# Typical values of damaged lengths and counts, and texts that parsers often mishandle.
 TOKENS = (
     *[b"\0\0\0\0", b"\xff\xff\xff\xff", b"\x7f\xff\xff\xff", b"\x80\0\0\0", b"\x01"],
     *[b"nan", b"1e999", b"-1", b"", b'"', b"[" * 500, b"\\ud800", b"\xed\xa0\x80"],
@@ -40,14 +40,14 @@ TOKENS = (
 
 
 def plan() -> Image.Image:
-    """A little drawing."""
+    """A small drawing."""
     pixels = np.full((60, 80, 3), 255, np.uint8)
     pixels[10:13, 10:70] = pixels[10:50, 10:13] = (20, 20, 60)
     return Image.fromarray(pixels)
 
 
 def encoded(kind: str, mode: str = "RGB", **options: object) -> bytes:
-    """The little drawing as an image file."""
+    """The small drawing as an image file."""
     out = io.BytesIO()
     plan().convert(mode).save(out, kind, **options)
     return out.getvalue()
@@ -61,7 +61,7 @@ def good_files() -> dict[str, list[bytes]]:
         kind.value: [dump_trajectory(few, kind, degrees=turn) for turn in (True, False)]
         for kind in TrajectoryFormat
     }
-    text["npy"].pop(0)  # it cannot say that it is in degrees
+    text["npy"].pop(0)  # the format cannot state degrees
     objects = [{"x": 1, "y": 2.5, "theta_deg": 90}, {"x": 3, "y": 4, "theta_deg": 0}]
     text["json"].append(json.dumps(objects).encode())
     text["tum"].append(b"1.0 0.5 0.5 0 0 0 0 1\n2.0 1 1 0 0 0 0.6 0.8\n")
@@ -91,7 +91,7 @@ def good_files() -> dict[str, list[bytes]]:
 
 
 def opener(kind: str) -> Callable[[bytes], object]:
-    """What opens a file of this format."""
+    """The function that opens a file of this format."""
     if kind == "project":
         return lambda data: load_project(data, name="a.zip")
     if kind in {item.value for item in TrajectoryFormat}:
@@ -160,7 +160,7 @@ def _with_checksums(data: bytes) -> bytes:
 
 
 def faults(kind: str, files: list[bytes], n: int, seed: int) -> list[str]:
-    """What went wrong with n damaged files of a format."""
+    """The faults of n damaged files of a format."""
     rng = np.random.default_rng([seed, *kind.encode()])
     found = []
     for number in range(n):

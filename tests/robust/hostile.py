@@ -1,4 +1,4 @@
-"""Files that are made to end, fill or block a program that opens them.
+"""Files made to crash or block a program that opens them, or to exhaust its memory.
 
 Each is written by hand after its format's description; none is a virus.
 """
@@ -57,7 +57,7 @@ FORM = b"/Type /XObject /Subtype /Form /BBox [0 0 600 400]"
 
 
 def form_that_draws_itself() -> bytes:
-    """PDFium follows it until memory ends."""
+    """PDFium follows it until memory is exhausted."""
     inner = b"q /A Do Q q /A Do Q"
     resources = b"/XObject << /A 5 0 R >>"
     return page(
@@ -137,7 +137,7 @@ def image_in_pdf(side_px: int = 25_000) -> bytes:
 
 
 def jpeg_of_many_scans(n_scans: int = 3000, side_px: int = 4000) -> bytes:
-    """A progressive JPEG whose last scan comes again and again."""
+    """A progressive JPEG whose last scan is repeated many times."""
     out = io.BytesIO()
     Image.new("L", (side_px, side_px), 128).save(out, "JPEG", progressive=True)
     data = out.getvalue()

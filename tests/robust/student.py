@@ -23,7 +23,7 @@ from tests.browser.running import complaints, running_app, running_chromium
 FAILED = "an error in this program"
 PAUSE_MS = (0, 20, 120, 400, 1200)
 SHORT_MS = 1500
-"""How long an element may take that the last click has perhaps removed."""
+"""Wait, ms, for an element that the last click may have removed."""
 CLICKABLE = (
     '[data-testid="stButton"] button, [data-testid="stButtonGroup"] button, '
     '[data-testid="stCheckbox"] label, [data-testid="stRadio"] label, '
@@ -67,8 +67,8 @@ OVERTAKEN = ("/media/", "Download Button source error")
 def is_serious(complaint: str) -> bool:
     """Whether a line on the console is more than a file of an overtaken run.
 
-    A picture of a run that the next click overtook may be gone when the browser asks
-    for it; the next run brings its own.
+    A picture of a run that the next click interrupted may be gone when the browser asks
+    for it; the next run sends its own.
     """
     return "404" not in complaint or not any(word in complaint for word in OVERTAKEN)
 
@@ -95,7 +95,7 @@ class Student:
         ]
 
     def act(self) -> None:
-        """Do one thing; that it could not be done is no fault."""
+        """Do one action; an action that is not possible is no fault."""
         weights = [weight for weight, _ in self.acts]
         [(_, what)] = self.rng.choices(self.acts, weights)
         self.last = [*self.last[-30:], what.__name__]
@@ -197,7 +197,7 @@ class Student:
 
 
 def study(minutes: float, seed: int, log_path: Path) -> int:
-    """Let a student loose for some time; return how many things were done."""
+    """Run a random student for some time; return the number of actions."""
     rng = random.Random(seed)
     errors: list[str] = []
     done = 0

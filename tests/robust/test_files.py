@@ -1,4 +1,5 @@
-"""Damaged and hostile files: only a sentence comes out, in bounded time and memory."""
+"""Damaged and hostile files: each is refused in a sentence, in bounded time and
+memory."""
 
 import io
 import os
@@ -53,7 +54,7 @@ def test_damaged_files_are_read_or_refused_in_a_sentence(kind):
 
 
 def refused(data: bytes) -> tuple[str, float]:
-    """What is said of a file, and how long that took, s."""
+    """The error message for a file, and the time it took, s."""
     start = time.perf_counter()
     with pytest.raises(DrawingError) as caught:
         load_drawing(data, name="plan", max_side_px=2000)
@@ -61,7 +62,7 @@ def refused(data: bytes) -> tuple[str, float]:
 
 
 def test_hostile_files_are_refused_while_others_are_served():
-    """Their bound is 9.5 s each, and one decoder of four is left to others."""
+    """Each is bounded to 9.5 s, and one decoder of four stays free for other files."""
     with ThreadPoolExecutor(pool.MAX_PROCESSES - 1) as threads:
         waiting = {
             name: threads.submit(refused, make()) for name, make in HOSTILE.items()
@@ -94,7 +95,7 @@ def test_cad_sheet_of_300_000_lines_is_read(monkeypatch):
 
 
 def script(tmp_path: Path, text: str) -> str:
-    """What a script prints that uses the library without a guard for its module."""
+    """The output of a script that uses the library without a ``__main__`` guard."""
     path = tmp_path / "own.py"
     path.write_text(textwrap.dedent(text))
     done = subprocess.run(
@@ -153,7 +154,7 @@ def test_fork_has_decoders_of_its_own(tmp_path, jpeg):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the system's limit of memory")
 def test_memory_of_a_decoder_is_bounded_and_that_of_its_owner_too(tmp_path):
-    """In kB: 500 MB for the decoder, 20 MB for what the owner takes of a file.
+    """In kB: 500 MB for the decoder, 20 MB for its owner.
 
     An image of 1.9 GB in a page is read: PDFium unpacks it row by row.
     """
