@@ -76,7 +76,7 @@ def _words() -> None:
         with st.expander("And then?"):
             st.markdown(
                 "It falls: the prior no longer marks walls of which the robot sees "
-                "only the edge. Now choose *Subtract it at every reading*: recall "
+                "only the edge. Now choose *Take it off at every reading*: recall "
                 "rises, because from the second reading on this rule pushes a cell "
                 "*away* from its prior. A wall that was called free ends as "
                 "occupied, and so does a part of the free space."

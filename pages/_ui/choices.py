@@ -81,7 +81,7 @@ CHOICES: Mapping[Enum, str] = {
     BehindHit.OCCUPIED: "Occupied (Eq. 4.22 as printed)",
     BehindHit.UNSEEN: "Unseen (the field's usual rule)",
     UpdateRule.PRIOR_ONCE: "Count the drawing once",
-    UpdateRule.SUBTRACT_PRIOR: "Subtract it at every reading (the source, as we "
+    UpdateRule.SUBTRACT_PRIOR: "Take it off at every reading (the source, as we "
     "reconstruct it)",
     Region.EXPLORED: "Explored cells",
     Region.ALL: "All cells",
