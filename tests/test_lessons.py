@@ -2,40 +2,39 @@
 
 import pytest
 
-from occsim import (
-    Prior,
-    UpdateRule,
-    collect_evidence,
-    fuse,
-    load_sample,
-    sample_names,
-    score,
-    truth_cells,
-)
-from occsim.prior import prior_from_cells
-from occsim.world import wall_cells
+from occsim import MappingRun, MapSettings, Prior, UpdateRule, load_sample, sample_names
 
-CELL_PX = 3
+ONCE, SUBTRACT = UpdateRule.PRIOR_ONCE, UpdateRule.SUBTRACT_PRIOR
 
 
 @pytest.fixture(scope="module", params=sample_names())
-def recall(request):
-    """Recall of a reference drawing by p_wall and update rule, p_space at 0.9."""
-    building = load_sample(request.param)
-    grid = building.world.grid(CELL_PX)
-    log = collect_evidence(building.world, building.trajectory, building.sensor, grid)
-    is_wall = wall_cells(building.wall_mask, grid)
-    truth = truth_cells(building.world, grid)
-
-    def at(p_wall, rule):
-        prior_map = prior_from_cells(is_wall, grid, Prior(p_wall=p_wall, p_space=0.9))
-        return score(fuse(log, prior_map, rule), truth).recall
-
-    return at
+def run(request):
+    """A reference drawing, mapped as the page "Build a map" opens it."""
+    sample = load_sample(request.param)
+    return MappingRun(sample, MapSettings(cell_px=3, sensor=sample.sensor))
 
 
-def test_build_a_map_asks_what_p_wall_of_one_does_to_recall(recall):
-    # "It rises ... Switch to prior once, and it falls."
-    subtract, once = UpdateRule.SUBTRACT_PRIOR, UpdateRule.PRIOR_ONCE
-    assert recall(1.0, subtract) > recall(0.2, subtract)
-    assert recall(1.0, once) < recall(0.2, once)
+def test_build_a_map_says_that_recall_falls_where_the_drawing_is_counted_once(run):
+    """ "Set p_wall to 1 ... It falls"."""
+    assert run.scores(Prior(p_wall=1.0), ONCE).recall < run.scores(Prior(), ONCE).recall
+
+
+def test_build_a_map_says_that_recall_rises_where_the_prior_is_taken_off(run):
+    """ "Now choose Take it off at every reading: recall rises"."""
+    free = Prior(p_wall=1.0)
+    assert run.scores(free, SUBTRACT).recall > run.scores(Prior(), SUBTRACT).recall
+    assert run.scores(free, SUBTRACT).recall > run.scores(free, ONCE).recall
+
+
+def test_build_a_map_says_that_free_space_ends_as_occupied_then(run):
+    """ "... and so does a part of the free space"."""
+    free = Prior(p_wall=1.0)
+    assert run.scores(free, SUBTRACT).fp > run.scores(free, ONCE).fp
+
+
+def test_the_drawing_helps_where_it_is_counted_once_and_harms_where_it_is_taken_off(
+    run,
+):
+    """The README and the decisions: why PRIOR_ONCE is the default."""
+    blank = run.scores(Prior.uninformative()).f2
+    assert run.scores(Prior(), ONCE).f2 > blank > run.scores(Prior(), SUBTRACT).f2
