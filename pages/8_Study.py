@@ -8,7 +8,7 @@ from pages._ui.priors import studying
 with shell.page("pages/8_Study.py") as lesson:
     shell.heading(lesson)
     with st.container(horizontal=True, vertical_alignment="bottom"):
-        controls.select("study_rule", width=330)
+        controls.select("study_rule", width=480)
         controls.select("region", width=190)
         controls.select("behind_hit", width=270)
         with st.popover("More settings"):

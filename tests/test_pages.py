@@ -33,7 +33,8 @@ def control(app, name):
 def said(elements):
     """What a page says, without the escapes and the marks of mathematics."""
     symbol = re.compile(r"\$([pl])_(?:\\text\{(\w+)\}|(0))\$")
-    plain = [symbol.sub(r"\1_\2\3", one.value) for one in elements]
+    joined = [one.value.replace("\u2060", "") for one in elements]
+    plain = [symbol.sub(r"\1_\2\3", text) for text in joined]
     return [re.sub(r"\\(.)", r"\1", text) for text in plain]
 
 

@@ -5,13 +5,15 @@ import re
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
+import numpy as np
 import pytest
 from PIL import Image
 from streamlit.testing.v1 import AppTest
 
-from occsim import load_sample
-from pages._ui import compute, state
+from occsim import Corrections, load_sample
+from pages._ui import compute, state, words
 from pages._ui.compute import with_walls
 from pages._ui.settings import Settings
 from pages._ui.shared import Store, shared, size_of
@@ -279,6 +281,37 @@ def test_a_reload_finds_the_building_and_the_settings_again():
     assert not again.warning
 
 
+def test_a_reload_keeps_a_building_while_a_sample_is_shown():
+    app = upload(launch(YOURS), "Drawing", "mine.png", png(rooms()))
+    key, _ = app.session_state["work"]
+    again = opened(YOURS, work=key, drawing="a")
+    assert again.session_state["choice"] == "a"
+    assert again.session_state["own"].digest == app.session_state["own"].digest
+    # Nothing was changed, so nothing more is kept.
+    assert again.session_state["work"][0] == key
+
+
+def test_undo_of_opening_a_project_brings_the_settings_back(session):
+    before = state.settings()
+    project = with_walls(load_sample("d"))
+    state.edit(lambda: state.open_project(project, {"cell_px": "7", "p_wall": "0.5"}))
+    assert (state.settings().cell_px, state.settings().p_wall) == (7, 0.5)
+    state.undo()
+    assert state.settings() == before
+
+
+def test_strokes_that_were_taken_back_on_the_board_leave_no_step(session):
+    mine = with_walls(load_sample("d"))
+    state.set_own(mine)
+    nothing = mine.corrections
+    dot = np.zeros(mine.drawing.shape, dtype=bool)
+    dot[5, 5] = True
+    stroke = Corrections.from_masks(dot, np.zeros_like(dot))
+    for corrections in (stroke, nothing):
+        state.edit(partial(state.edit_building, corrections=corrections), tag="board")
+    assert not state.can_undo()
+
+
 def test_a_link_to_a_building_that_is_gone_says_so_and_keeps_the_settings():
     app = opened(work="nobody-has-this-key", cell_px="7")
     assert said(app.warning) == [chosen.GONE]
@@ -392,6 +425,16 @@ def test_words_of_a_user_are_plain_text():
     app = upload(launch(BUILD), "Drawing", f"{name}.png", b"no image")
     [error] = app.error
     assert not re.search(r"(?<!\\)[\[\]<>$:!]", error.value)
+
+
+@pytest.mark.parametrize(
+    "text", ["see https://evil.example", "www.evil.example", "a@b.c", ":material/home:"]
+)
+def test_addresses_and_icons_in_words_of_a_user_are_not_found(text):
+    """Both are found in the text without its escapes: something must stand between."""
+    shown = re.sub(r"\\(.)", r"\1", words.plain(text))
+    assert text not in shown
+    assert shown.replace("\u2060", "") == text
 
 
 def test_a_title_of_one_student_is_not_in_what_all_share():

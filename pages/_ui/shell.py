@@ -80,10 +80,10 @@ CSS = """
 /* Captions are read, not skipped: Streamlit's 0.6 is a contrast of 3.9. */
 [data-testid="stCaptionContainer"] { opacity: 0.8; }
 /* The page one is on is the clearest item, not the dimmest. */
-.st-key-lessons a[disabled], .st-key-lessons a[disabled] * {
+.st-key-current_page a, .st-key-current_page a * {
     color: inherit; opacity: 1; font-weight: 700;
 }
-.st-key-lessons a[disabled] { box-shadow: inset 0 -2px currentColor; }
+.st-key-current_page a { box-shadow: inset 0 -2px currentColor; }
 .st-key-lessons a:focus-visible { outline: 2px solid currentColor; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
@@ -167,13 +167,13 @@ def say_error(text: str) -> None:
 
 
 def _ending() -> None:
-    own = state.choice() == state.OWN
+    own = state.OWN in state.choices()
     kept = not own or state.work_key() is not None
-    note = "It opens this page as it is."
+    note = "It opens this page with this drawing and these settings."
     if own:
-        note = (
-            "It opens this page as it is, from this server only and for a day; the "
-            "project file lasts longer (Your building, 7 Keep)."
+        note += (
+            " Your own building opens from this server only and for a day; the project "
+            "file lasts longer (Your building, 7 Keep)."
         )
     with st.container(
         horizontal=True,
@@ -192,7 +192,11 @@ def _navigation(path: str) -> None:
         st.container(horizontal=True, key="lessons"),
     ):
         for item in LESSONS:
-            st.page_link(item.path, label=item.label, disabled=item.path == path)
+            is_current = item.path == path
+            # A key of its own: a lost connection disables all links alike.
+            key = "current_page" if is_current else None
+            with st.container(key=key, width="content"):
+                st.page_link(item.path, label=item.label, disabled=is_current)
 
 
 def heading(lesson: Lesson) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import load_drawing
+from occsim import Trajectory, load_drawing
 from occsim.building import truth_from_image
 from occsim.imaging import Drawing, is_pdf, load_pdf_page, pdf_page_count
 from occsim.io.metric import MetricFrame
@@ -167,28 +167,33 @@ def _use_truth(file: Any) -> None:
 
 @dataclass(frozen=True, eq=False)
 class PoseFile:
-    """The trajectory file that was given last, and the drawing it was given for."""
+    """The trajectory file that was given last, and the trajectory that it belongs to.
+
+    That is what was read from it, or what was there when it was refused.
+    """
 
     name: str
     data: bytes
-    drawing_digest: str
+    trajectory: Trajectory
 
 
 def _use_trajectory(file: Any) -> None:
-    digest = state.building().drawing.digest
-    state.set_view(POSES, PoseFile(file.name, file.getvalue(), digest))
+    before = state.building().trajectory
+    state.set_view(POSES, PoseFile(file.name, file.getvalue(), before))
     _read_poses()
 
 
 def _read_poses() -> None:
     """Read the last trajectory file, its angles in the chosen unit."""
     file = state.view(POSES, None)
-    if file is None or file.drawing_digest != state.building().drawing.digest:
+    if file is None or file.trajectory is not state.building().trajectory:
         return
     unit = UNITS[state.view("angle_unit", "As the file says")]
     table = read_trajectory_table(file.data, name=file.name)
     frame = _frame() if table.metres else None
-    state.edit_building(trajectory=table.to_trajectory(unit, frame))
+    trajectory = table.to_trajectory(unit, frame)
+    state.edit_building(trajectory=trajectory)
+    state.set_view(POSES, replace(file, trajectory=trajectory))
 
 
 def _frame() -> MetricFrame | None:

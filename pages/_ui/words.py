@@ -41,12 +41,16 @@ def ranges(text: str) -> str:
     return text.replace(":", " to ")
 
 
+_ADDRESS = re.compile(r":(?=\S)|@(?=\S)|www\.", re.IGNORECASE)
 _MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-.!|~$:&])")
 
 
 def plain(text: str) -> str:
-    """Return a text with Markdown and HTML escaped: names of files, titles."""
-    return _MARKUP.sub(r"\\\1", text.replace("\n", " "))
+    """Return a text in which Markdown and HTML have no effect: file names, titles."""
+    # Addresses and icons are found in the text itself, where an escape is gone already:
+    # a word joiner, which is not seen, keeps them from being found.
+    joined = _ADDRESS.sub("\\g<0>\u2060", text.replace("\n", " "))
+    return _MARKUP.sub(r"\\\1", joined)
 
 
 def percent(value: float) -> str:

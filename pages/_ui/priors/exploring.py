@@ -70,7 +70,7 @@ def _point_slider(run: Run) -> None:
         state.choose_pair(float(front.p_wall[index]), float(front.p_space[index]))
 
     st.select_slider(
-        "Point of the front (precision, recall)",
+        "Point of the front nearest to the chosen pair (precision, recall)",
         range(len(front)),
         format_func=labels.__getitem__,
         help="Points that lie too close to be clicked can be reached here.",

@@ -44,7 +44,7 @@ def drawing(run: Run) -> None:
     _head(1, f"Drawing: {words.plain(building.title)}")
     st.image(drawing_png(building.drawing), width="stretch", alt="The drawing")
     st.caption(
-        f"{width} x {height} px. Choose another above, or upload your own on the "
+        f"{width} × {height} px. Choose another above, or upload your own on the "
         "page *Your building*."
     )
 
@@ -109,6 +109,8 @@ def best_map(run: Run, prior: Prior) -> None:
     """Step 5: the pair, and the map that it gives."""
     is_recommended = prior == recommended(run)
     _head(5, "Recommended pair" if is_recommended else "Pair chosen by hand")
+    if recommended(run) is None:
+        st.caption("Set C is empty, so no pair can be recommended.")
     st.image(
         run.picture(prior, Picture.BELIEF), width="stretch", alt="The map of this pair"
     )
@@ -140,7 +142,7 @@ def prior_map(run: Run, prior: Prior) -> None:
     st.caption(
         f"{words.maths('p_free')} is {prior.p_free_wall:.3g} on wall cells and "
         f"{prior.p_free_space:.3g} "
-        f"elsewhere; {made.grid.n_rows} x {made.grid.n_cols} cells of "
+        f"elsewhere; {made.grid.n_rows} × {made.grid.n_cols} cells of "
         f"{made.grid.cell_px} px."
     )
     settings = prior_json(made, prior, run.building.drawing, chosen_on(run, prior))

@@ -51,13 +51,14 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     notices = []
     if "work" in query:
         state.own = WORKS.find(query["work"])
+        state.work = query["work"], state.own
         notices += [] if state.own else [GONE]
     wrong = []
     asked = query.get("drawing", OPENING)
     if asked not in sample_names():
         wrong.append("drawing")
         asked = OPENING
-    state.choice = OWN if state.own else asked
+    state.choice = OWN if state.own and "drawing" not in query else asked
     state.settings, more = decode(query, defaults(state.choice))
     wrong += more
     state.played = PlayerDocument()
@@ -100,6 +101,8 @@ def change(**changes: Any) -> None:
 def reset_all() -> None:
     """Return to the chosen drawing's opening settings; an own building is kept."""
     st.session_state.settings = defaults(choice())
+    state = st.session_state
+    state.link_notice = state.link_notice[0], ""
     renew_widgets()
     open_half_way(building())
 
@@ -114,25 +117,30 @@ def renew_widgets() -> None:
 
 
 def query() -> dict[str, str]:
-    """Return the parameters of a link to this state."""
+    """Return all that a link to this state says."""
     name = choice()
-    where = {"drawing": name}
-    if name == OWN:
-        key = work_key()
-        where = {} if key is None else {"work": key}
+    where = {} if name == OWN else {"drawing": name}
+    key = work_key()
+    if key is not None:
+        where["work"] = key
     place = place_in_replay(building())
     return where | encode(settings(), defaults(name)) | place
 
 
 def work_key() -> str | None:
-    """Return the key under which the own building is kept; None if it is not kept.
+    """Return the key under which the building of one's own is kept; None if it is not.
 
-    A session that opened another's link gets its own key when it changes the building.
+    A session that opened another's link goes on under a key of its own once it changes
+    the building.
     """
     state = st.session_state
+    if state.own is None:
+        return None
     key, kept = state.work or (None, None)
     if kept is not state.own:
-        state.work = WORKS.keep(state.own, key), state.own
+        mine = key if key == state.get("my_key") else None
+        state.my_key = WORKS.keep(state.own, mine)
+        state.work = state.my_key, state.own
     return state.work[0]
 
 

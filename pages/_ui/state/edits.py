@@ -7,9 +7,9 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import OccsimError
+from occsim import Corrections, OccsimError
 from occsim.building import Building
-from pages._ui.settings import decode
+from pages._ui.settings import Settings, decode
 from pages._ui.shared import size_of
 from pages._ui.state.chosen import (
     OWN,
@@ -39,13 +39,13 @@ class Snapshot:
 
     choice: str
     own: Building | None
-    range_px: int
+    settings: Settings
 
     def is_as(self, other: "Snapshot") -> bool:
         """Whether nothing differs; parts are compared by identity."""
         return (
             self.choice == other.choice
-            and self.range_px == other.range_px
+            and self.settings == other.settings
             and _are_same(self.own, other.own)
         )
 
@@ -62,14 +62,21 @@ class Step:
 def _are_same(a: Building | None, b: Building | None) -> bool:
     if a is None or b is None:
         return a is b
-    return all(getattr(a, one.name) is getattr(b, one.name) for one in fields(Building))
+    return all(
+        _is_same_part(getattr(a, one.name), getattr(b, one.name))
+        for one in fields(Building)
+    )
+
+
+def _is_same_part(a: object, b: object) -> bool:
+    return a is b or (isinstance(a, Corrections) and a == b)
 
 
 def _snapshot() -> Snapshot:
     state = st.session_state
     # A copy holds the parts without cached results.
     own = None if state.own is None else replace(state.own)
-    return Snapshot(state.choice, own, settings().range_px)
+    return Snapshot(state.choice, own, settings())
 
 
 def set_own(own: Building) -> None:
@@ -160,6 +167,9 @@ def _edit(action: Callable[[], None], tag: str) -> None:
         last = past[-1]
         if last.after.is_as(before):
             before, past = last.before, past[:-1]
+    if after.is_as(before):
+        state.past = past  # what was drawn was taken back on the board itself
+        return
     state.past = _bounded((*past, Step(before, after, tag)))
     state.future = ()
 
@@ -206,8 +216,13 @@ def _restore(left: Snapshot, entered: Snapshot) -> None:
     """Go from one side of an edit to the other; parts that it left alone stay."""
     state = st.session_state
     state.choice, state.own = entered.choice, entered.own
-    if left.range_px != entered.range_px:
-        change(range_px=entered.range_px)
+    names = [one.name for one in fields(Settings)]
+    changes = {
+        name: getattr(entered.settings, name)
+        for name in names
+        if getattr(entered.settings, name) != getattr(left.settings, name)
+    }
+    change(**changes)
     state.message = ""
     renew_widgets()
     forget_player()

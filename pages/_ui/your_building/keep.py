@@ -20,7 +20,8 @@ def show() -> None:
         st.markdown(
             "**Keep.** One file with the drawing, the masks and their corrections, the "
             "ground truth, the trajectory, the scale and all settings. What is here "
-            "lasts as long as this browser tab is open; the file lasts longer."
+            "lasts for a day on this server, if it is not restarted; the file lasts "
+            "longer."
         )
         project = Project(building=state.building(), settings=encode(state.settings()))
         st.download_button(

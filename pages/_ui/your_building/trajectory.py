@@ -174,6 +174,11 @@ def _random() -> None:
 
 def _table() -> None:
     table = kept.table(pose_columns)
+    # Its toolbar covers what stands above the table: two lines that need no click.
+    st.caption(
+        "One row a pose. Edit a value, add a row at the end, or select rows to delete "
+        "them."
+    )
     edited = st.data_editor(
         table.given,
         num_rows="dynamic",

@@ -11,6 +11,9 @@ export default function (component) {
   root.hidden = !hasButton;
   replaceAddress(query);
   heedLeaving(unsaved);
+  heedConnection();
+  // On a telephone the navigation is one row to swipe.
+  document.querySelector(".st-key-current_page")?.scrollIntoView({ block: "nearest", inline: "center" });
   root.querySelector("button").onclick = () => copy(said, note);
 }
 
@@ -30,6 +33,35 @@ function heedLeaving(unsaved) {
   window.addEventListener("beforeunload", (event) => {
     if (leaving.unsaved) event.preventDefault();
   });
+}
+
+// Streamlit goes on showing what is old when its server is gone.
+function heedConnection() {
+  document.querySelector(".occsim-cut")?.remove();
+  const app = document.querySelector("[data-testid=stApp]");
+  if (!app || app.occsimWatched) return;
+  app.occsimWatched = new MutationObserver(() => {
+    const state = app.dataset.testConnectionState;
+    if (state && state !== "CONNECTED") sayCut();
+  });
+  app.occsimWatched.observe(app, { attributeFilter: ["data-test-connection-state"] });
+}
+
+function sayCut() {
+  if (document.querySelector(".occsim-cut")) return;
+  const said = element("div", { class: "occsim-cut", role: "alert" });
+  said.style.cssText =
+    "position:fixed;inset:auto 0 0 0;z-index:1000;padding:0.75rem 1rem;background:#7a2e00;color:#fff;" +
+    "display:flex;gap:1rem;align-items:center;justify-content:center;font:400 1rem sans-serif";
+  const button = element("button", { type: "button" }, "Reload");
+  button.style.cssText = "min-height:2.5rem;padding:0 1rem";
+  button.onclick = () => window.location.reload();
+  said.append(
+    "The connection to the server was cut. Reload the page to go on: the settings come back, " +
+      "and a building of your own if the server still has it.",
+    button,
+  );
+  document.body.append(said);
 }
 
 async function copy(said, note) {

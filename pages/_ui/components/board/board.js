@@ -80,7 +80,8 @@ function stopTimers(b) {
 async function receive(b, data) {
   const turn = ++b.loading;
   const [header, picture, base, overlay] = readPacked(data);
-  b.root.style.height = `${header.heightPx}px`;
+  // On a large screen the board takes what the page leaves.
+  b.root.style.height = `max(${header.heightPx}px, 100vh - 250px)`;
   const size = header.width * header.height;
   const [bitmap, walls, planes] = await Promise.all([
     pictureOf(picture),

@@ -71,7 +71,7 @@ const errorKeys = ({ header }) =>
 
 function beliefKeys({ header, state: { overlay } }) {
   const ramp = legendKey("ramp", "1");
-  ramp.prepend(...maths("p_free 0"));
+  ramp.prepend(element("span", {}, ...maths("p_free 0")));
   if (overlay === "none") return [ramp];
   const { label } = header.texts.overlays.find(({ value }) => value === overlay);
   return [legendKey(overlay, label), ramp];
