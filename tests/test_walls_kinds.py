@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 
 from occsim.imaging import Drawing
-from occsim.walls import compare_masks, detect_walls
+from occsim.samples import load_sample
+from occsim.walls import ScaleSource, compare_masks, detect_walls, propose_scale
 
 Pair = tuple[np.ndarray, np.ndarray]
 """A drawing (H, W, 3) uint8 and its true walls (H, W) bool."""
 
 LEAST_F1 = 0.95
+
+DOORS_PX = {"a": 40.0, "b": 40.0, "c": 20.0, "d": 20.0, "e": 20.0}
+"""Leaves of the sample drawings, as their list in the package says."""
 
 
 def boxes(shape: tuple[int, int], *corners: tuple[int, int, int, int]) -> np.ndarray:
@@ -298,3 +302,71 @@ def test_walls_of_every_kind_of_drawing_are_found(kind):
     sheet, truth = KINDS[kind]()
     found = detect_walls(Drawing(rgb=sheet)).mask
     assert compare_masks(found, truth).f1 >= LEAST_F1
+
+
+@pytest.mark.parametrize("factor", [0.5, 0.75, 2.0, 3.0])
+@pytest.mark.parametrize("kind", ["two rooms filled cream", "hatched 15", "eaves 16"])
+def test_another_resolution_gives_the_same_walls(kind, factor):
+    """F1 at the tolerance of 2 px changes by less than 0.03, as at any size."""
+    sheet, truth = KINDS[kind]()
+    size = round(sheet.shape[1] * factor), round(sheet.shape[0] * factor)
+    how = cv2.INTER_AREA if factor < 1 else cv2.INTER_CUBIC
+    scaled = cv2.resize(sheet, size, interpolation=how)
+    true = cv2.resize(truth.astype(np.uint8) * 255, size, interpolation=cv2.INTER_AREA)
+    found = detect_walls(Drawing(rgb=scaled)).mask
+    assert compare_masks(found, true > 127).f1 >= 0.97
+
+
+def test_a_large_sheet_takes_little_memory_and_its_pictures_are_small():
+    """The working copy has 1.5 megapixels, whatever the sheet."""
+    wall = np.kron(base(), np.ones((8, 8), bool))
+    detection = detect_walls(Drawing(rgb=black_on(wall)))
+    assert compare_masks(detection.mask, wall, tolerance_px=8).f1 >= 0.99
+    for _, image in detection.stages:
+        assert image.size <= 1_510_000
+
+
+def test_certainty_is_high_for_plain_walls_and_none_for_an_empty_sheet():
+    plain = detect_walls(Drawing(rgb=black_on(base())))
+    assert plain.certainty.confidence >= 0.95
+    assert plain.certainty.wall_px == pytest.approx(8.0, abs=0.5)
+    assert not plain.doubtful.any()
+    empty = detect_walls(Drawing(rgb=black_on(np.zeros((300, 400), bool))))
+    assert empty.certainty.confidence == 0.0
+    assert "No walls were found." in empty.certainty.notes
+
+
+def test_dropped_pieces_are_doubtful():
+    """Two dimension lines are as far apart as the faces of the walls."""
+    sheet, _ = dimensioned(16)
+    detection = detect_walls(Drawing(rgb=sheet))
+    assert detection.certainty.dropped >= 1
+    assert detection.doubtful[62:74, 200:800].mean() > 0.9
+
+
+def test_scale_is_proposed_from_doorways():
+    """The doorways are 40 px wide; no leaf is drawn."""
+    proposal = propose_scale(Drawing(rgb=black_on(base())))
+    assert proposal.source is ScaleSource.DOORWAYS
+    assert proposal.door_px == pytest.approx(40.0, abs=1.0)
+    assert proposal.count >= 3
+
+
+def test_scale_is_proposed_from_the_walls_where_there_is_no_door():
+    wall = boxes((300, 400), *ring(40, 40, 360, 260, 10))
+    proposal = propose_scale(Drawing(rgb=black_on(wall)))
+    assert proposal.source is ScaleSource.WALL_THICKNESS
+    assert proposal.door_px == pytest.approx(40.0, abs=4.0)
+    assert proposal.confidence < 0.5
+
+
+def test_no_scale_is_proposed_for_an_empty_sheet():
+    assert propose_scale(Drawing(rgb=black_on(np.zeros((200, 300), bool)))) is None
+
+
+@pytest.mark.parametrize("name", list("abcde"))
+def test_scale_of_the_samples_is_read_from_their_doors(name):
+    """Leaves are drawn from the middle of the hinge: a px or two less than the door."""
+    proposal = propose_scale(load_sample(name).drawing)
+    assert proposal.source is ScaleSource.DOOR_LEAVES
+    assert proposal.door_px == pytest.approx(DOORS_PX[name], rel=0.1)

@@ -39,6 +39,9 @@ LINE_WALLS = 0.1, 0.5
 """Length of a group, and of the longest group, of a drawing of bare lines, in lengths
 of all of it: a building reaches across its drawing, furniture does not."""
 
+BLOCK = 0.9
+"""Share of the box around it that a block of ink fills."""
+
 SHIFT = 0.25
 """Change of the thinnest wall, as a share, under which sure walls stay."""
 
@@ -83,7 +86,7 @@ def detect_walls(
     walls = ink.solid | hollow
     found = walls
     if ink.m.gaps:
-        found = without_strays(walls, ink.solid, ink.rest, ink.m)
+        found = without_strays(walls, ink.solid, ink.m)
     if params.min_piece_px:
         found = without_short(found, params.min_piece_px * sheet.scale)
     certainty, doubtful = _certainty(ink, walls, found, sheet.scale)
@@ -159,7 +162,9 @@ def _line_walls(ink: ByteArray) -> ByteArray:
     extent = max(np.ptp(rows), np.ptp(cols)) + 1
     if groups.longest.max() < LINE_WALLS[1] * extent:
         return np.zeros_like(ink)
-    return ink & groups.chosen(groups.longest >= LINE_WALLS[0] * extent)
+    # A block is a column or a shaft, however small.
+    block = groups.area >= BLOCK * groups.width * groups.height
+    return ink & groups.chosen(block | (groups.longest >= LINE_WALLS[0] * extent))
 
 
 def _hollow(dark: ByteArray, ink: _Ink) -> ByteArray:
@@ -201,6 +206,8 @@ def _certainty(
     doubtful = dropped | pieces.chosen(pieces.longest >= m.wall)
     area = int(np.count_nonzero(found))
     kept = int(np.count_nonzero(ink.rest & found))
+    removed = 1 - kept / max(int(np.count_nonzero(ink.every)), 1)
+    shaking = int(np.count_nonzero(shaky)) / max(area, 1)
     notes = []
     if not area:
         notes.append("No walls were found.")
@@ -210,12 +217,12 @@ def _certainty(
         notes.append("Walls are drawn as pairs of lines here.")
     return (
         Certainty(
-            confidence=max(0.0, 1 - np.count_nonzero(shaky) / area) if area else 0.0,
-            removed_share=1 - kept / max(int(np.count_nonzero(ink.every)), 1),
+            confidence=max(min(1 - shaking, 1 - removed), 0.0) if area else 0.0,
+            removed_share=removed,
             dropped=len(components(dropped).area) - 1,
             wall_px=m.wall / scale if area else float("nan"),
-            doors_px=tuple(door.radius_px / scale for door in ink.doors),
-            doorways_px=tuple(w / scale for w in doorways(found, ink.rest, m)[1]),
+            doors_px=tuple((door.radius_px + m.line) / scale for door in ink.doors),
+            doorways_px=tuple(w / scale for w in doorways(found, m)[1]),
             notes=tuple(notes),
         ),
         doubtful,

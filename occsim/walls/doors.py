@@ -15,8 +15,14 @@ RADIUS = 2.0, 16.0
 STRAIGHT = 1.5
 """Length from which a stroke is straight, in usual walls: arcs bend before."""
 
+STRAIGHT_SHARE = 0.03
+"""The same as a share of the longer side: thin walls say little of doors."""
+
 ON_ARC = 0.7
 """Share of a stroke's pixels that must lie on the circle."""
+
+FLATTEST = 0.3
+"""Least width over length of the box around an arc, or two arcs in a row."""
 
 SPAN_RAD = np.radians(25.0), np.radians(100.0)
 """Angle that a swing's bent part covers; its ends, along rows, are straight."""
@@ -70,12 +76,15 @@ def find_doors(
     """
     if fit == 0:
         return ()
-    length = STRAIGHT * m.wall
+    length = max(STRAIGHT * m.wall, STRAIGHT_SHARE * max(ink.shape))
     straight = opened(thin, box(length, 1)) | opened(thin, box(1, length))
     parts = components(thin & ~straight)
     low, high = RADIUS[0] * m.wall, RADIUS[1] * m.wall
     likely = (parts.longest >= low / 3) & (parts.longest <= high)
     likely &= parts.area <= 3 * m.line * parts.longest
+    # The middle of a quarter circle runs at about 45 degrees, as long as wide.
+    shorter = np.minimum(parts.width, parts.height)
+    likely &= (shorter >= FLATTEST * parts.longest) & (shorter > 2 * m.line)
     found = []
     for index in np.flatnonzero(likely):
         for x, y in _halves(*_pixels(parts, int(index))):

@@ -3,8 +3,8 @@
 import numpy as np
 
 from occsim._types import ByteArray
-from occsim.walls.raster import box, closed, components, dilated
-from occsim.walls.strokes import Measures
+from occsim.walls.raster import box, components, dilated, filled, flipped
+from occsim.walls.strokes import Measures, column_runs
 
 DOORWAY = 8.0
 """Widest doorway, in usual walls."""
@@ -25,9 +25,7 @@ SOLID_SHARE = 0.2
 """Share of a group that must be solid for it to be kept whatever its shape."""
 
 
-def without_strays(
-    walls: ByteArray, solid: ByteArray, ink: ByteArray, m: Measures
-) -> ByteArray:
+def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
     """Drop hollow pieces that belong to no building: carpets, rulers, pairs of lines.
 
     Solid pieces stay where walls are solid, whatever they are: nothing that is plainly
@@ -39,12 +37,10 @@ def without_strays(
         All walls.
     solid : ndarray of uint8, shape (h, w)
         Those that are solid ink.
-    ink : ndarray of uint8, shape (h, w)
-        All ink.
     m : Measures
         Lengths of the drawing.
     """
-    opening, _ = doorways(walls, ink, m)
+    opening, _ = doorways(walls, m)
     groups = components(dilated(walls, box(3)) | opening)
     inked = groups.total(solid)
     shorter = np.minimum(groups.width, groups.height)
@@ -62,9 +58,7 @@ def without_short(walls: ByteArray, shortest_px: float) -> ByteArray:
     return groups.chosen(groups.longest >= shortest_px)
 
 
-def doorways(
-    walls: ByteArray, ink: ByteArray, m: Measures
-) -> tuple[ByteArray, list[float]]:
+def doorways(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
     """Return the openings between walls that face each other end-on, and their widths.
 
     Returns
@@ -73,16 +67,32 @@ def doorways(
     widths_px : list of float
         Of those that are as wide as doors are.
     """
+    level, some = _facing(flipped(walls), m)
+    upright, others = _facing(walls, m)
+    return flipped(level) | upright, some + others
+
+
+def _facing(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
+    """Return the openings down columns that begin at the end of a wall."""
+    runs = column_runs(walls)
+    gap = np.flatnonzero((runs.value == 0) & (runs.length <= DOORWAY * m.wall))
+    gap = gap[(gap > 0) & (gap < len(runs.value) - 1)]
+    gap = gap[(runs.value[gap - 1] == 1) & (runs.value[gap + 1] == 1)]
+    column, top = runs.column[gap], runs.start[gap]
+    bottom = top + runs.length[gap]
     mask = np.zeros_like(walls)
     widths: list[float] = []
-    reach = DOORWAY * m.wall
-    for level, kernel in ((True, box(reach, 1)), (False, box(1, reach))):
-        gaps = components(closed(walls, kernel) & ~walls & ~ink, 4)
-        side, width = gaps.height, gaps.width
-        if not level:
-            side, width = width, side
+    for edge in (top, bottom - 1):
+        ends = np.zeros_like(walls)
+        ends[edge, column] = 1
+        parts = components(ends)
+        side = parts.width
         like_wall = side >= LIKE_WALL[0] * m.wall
-        like_wall &= side <= LIKE_WALL[1] * m.wall
-        mask |= gaps.chosen(like_wall)
-        widths += width[like_wall & (width >= NARROWEST * m.wall)].tolist()
-    return mask, widths
+        like_wall &= (side <= LIKE_WALL[1] * m.wall) & (parts.height <= m.wall)
+        part = parts.labels[edge, column]
+        these = like_wall[part]
+        mask |= filled(walls.shape, top[these], bottom[these], column[these])
+        _, first = np.unique(part[these], return_index=True)
+        widths += (bottom - top)[these][first].tolist()
+    least = NARROWEST * m.wall
+    return mask, [width for width in widths if width >= least]

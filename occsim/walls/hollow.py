@@ -17,6 +17,7 @@ from occsim.walls.raster import (
     closed,
     components,
     dilated,
+    filled,
     flipped,
 )
 from occsim.walls.sheet import turned_by
@@ -43,6 +44,10 @@ JOINT = 1.5
 
 AHEAD = 4.0
 """How far ahead a wall may go on in line with itself, in usual walls."""
+
+OBLIQUE_SHARE = 0.05
+"""Length of hollow walls at another angle, as a share of those along rows and columns,
+from which they are walls and not hatching."""
 
 PANES = 2
 """Lines between the faces of a window; fewer are sills, doors or furniture."""
@@ -102,15 +107,24 @@ def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
     found = [s.parts.chosen(_seeds(s, m)) for s in every]
     walls = _with_ends(found, ink, m)
     # Walls that hang on walls that hang on seeds; the commonest kind first.
-    for kind in [*((gap,) for gap in m.gaps), ()] * 3:
-        sure = walls | solid
-        if not sure.any():
+    for _ in range(3):
+        before = np.count_nonzero(walls)
+        for kind in [*((gap,) for gap in m.gaps), ()]:
+            sure = walls | solid
+            if not sure.any():
+                return walls
+            firm = [one | solid for one in found]
+            more = [
+                s.parts.chosen(
+                    _joined(s, sure, firm, m) & (_one_of(s.width, kind) | (not kind))
+                )
+                for s in every
+            ]
+            if any(one.any() for one in more):
+                found = [a | b for a, b in zip(found, more, strict=True)]
+                walls = _with_ends(found, ink, m)
+        if np.count_nonzero(walls) == before:
             break
-        firm = [one | solid for one in found]
-        for i, s in enumerate(every):
-            more = _joined(s, sure, firm, m) & (_one_of(s.width, kind) | (not kind))
-            found[i] = found[i] | s.parts.chosen(more)
-        walls = _with_ends(found, ink, m)
     return walls | (dilated(walls, box(2 * m.line + 3)) & ink)
 
 
@@ -119,8 +133,11 @@ def oblique_walls(
 ) -> ByteArray:
     """Return the hollow walls along another direction, and across it."""
     turned, turn = turned_by(ink * np.uint8(255), direction_rad)
-    long = gap_lengths(as_bytes(turned > 127), SEED_LENGTH * m.wall, m.line)
-    if not any(long[gap] > m.wall for gap in m.gaps):
+    oblique, upright = (
+        gap_lengths(view, SEED_LENGTH * m.wall, m.line)[list(m.gaps)].sum()
+        for view in (as_bytes(turned > 127), ink)
+    )
+    if oblique < OBLIQUE_SHARE * upright:
         return np.zeros_like(ink)
     solid, _ = turned_by(solid * np.uint8(255), direction_rad)
     walls = hollow_walls(as_bytes(turned > 127), as_bytes(solid > 127), m)
@@ -151,21 +168,24 @@ def _joined(
     from a wall in line with them; across a line they may only touch what is surely
     wall.
     """
-    across, ahead = 4 * m.line + 1, 2 * AHEAD * m.wall
-    sides, ends = (
-        (box(across, 1), box(1, ahead))
-        if s.upright
-        else (box(1, across), box(ahead, 1))
-    )
-    joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall / 2)
+    line, joint, ahead = 4 * m.line + 1, 4 * m.wall, 2 * AHEAD * m.wall
+    joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall)
     joined &= ~_rare(s, m) | _long(s, m)
-    joined &= _touched(s, dilated(walls, sides)) <= BESIDE_SHARE * s.length
-    near = dilated(walls, box(3)) | dilated(found[s.upright], ends)
-    near |= dilated(
-        found[not s.upright], box(across, 1) if not s.upright else box(1, across)
-    )
-    near |= dilated(found[not s.upright], sides)
-    return joined & (_touched(s, near) > 0)
+    joined &= _touched(s, _grown(walls, s, across=line)) <= BESIDE_SHARE * s.length
+    in_line, crossing = found[s.upright], found[not s.upright]
+    near = dilated(walls, box(3)) | _grown(in_line, s, along=ahead)
+    near |= _grown(crossing, s, along=line) | _grown(crossing, s, across=line)
+    reached = _touched(s, near) > 0
+    # What stands in the corner of a room may hide where a long wall meets another.
+    reached |= _long(s, m) & (_touched(s, _grown(crossing, s, along=joint)) > 0)
+    return joined & reached
+
+
+def _grown(
+    mask: ByteArray, s: Strips, *, along: float = 1, across: float = 1
+) -> ByteArray:
+    """Return a mask grown along strips and across them, full widths in px."""
+    return dilated(mask, box(across, along) if s.upright else box(along, across))
 
 
 def _touched(s: Strips, near: ByteArray) -> IntArray:
@@ -188,7 +208,7 @@ def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
         for least in (0, 1, 2):
             # What holds lines and has no room beside it is a stair or a shelf.
             fits = rooms >= max(least, min(lines, 1))
-            masks[least] |= _filled(view.shape, top[fits], bottom[fits], column[fits])
+            masks[least] |= filled(view.shape, top[fits], bottom[fits], column[fits])
     masks[0] = closed(masks[0], box(2 * m.line + 1, 1))
     if upright:
         masks = [flipped(mask) for mask in masks]
@@ -240,16 +260,6 @@ def _one_of(lengths: IntArray | FloatArray, usual: tuple[int, ...]) -> BoolArray
     return found
 
 
-def _filled(
-    shape: tuple[int, ...], top: IntArray, bottom: IntArray, column: IntArray
-) -> ByteArray:
-    """Return a mask of the given spans down its columns."""
-    edge = np.zeros((shape[0] + 1, shape[1]), dtype=np.int8)
-    np.add.at(edge, (top, column), 1)
-    np.subtract.at(edge, (bottom, column), 1)
-    return as_bytes(np.cumsum(edge[:-1], axis=0, dtype=np.int8) > 0)
-
-
 def _with_ends(found: list[ByteArray], ink: ByteArray, m: Measures) -> ByteArray:
     """Return strips, gone on to the next line across: corners and junctions."""
     level = closed(found[0], box(JOINT * m.wall, 1))
@@ -268,4 +278,4 @@ def _ends(walls: ByteArray, ink: ByteArray, m: Measures) -> ByteArray:
     rest = rest[(rest > 0) & (rest < len(runs.value) - 1)]
     rest = rest[(runs.value[rest - 1] == 3) | (runs.value[rest + 1] == 3)]
     top = runs.start[rest]
-    return _filled(walls.shape, top, top + runs.length[rest], used[runs.column[rest]])
+    return filled(walls.shape, top, top + runs.length[rest], used[runs.column[rest]])

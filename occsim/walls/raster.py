@@ -101,3 +101,14 @@ def components(mask: ByteArray, connectivity: int = 8) -> Components:
 def flipped(mask: ByteArray) -> ByteArray:
     """Return a mask with rows and columns exchanged."""
     return np.ascontiguousarray(mask.T)
+
+
+def filled(
+    shape: tuple[int, ...], top: IntArray, bottom: IntArray, column: IntArray
+) -> ByteArray:
+    """Return a mask of the given spans down its columns."""
+    mask = np.zeros(shape, dtype=np.uint8)
+    count = bottom - top
+    step = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    mask[np.repeat(top, count) + step, np.repeat(column, count)] = 1
+    return mask

@@ -21,7 +21,7 @@ COMMON_SHARE = 0.2
 THINNEST_WALL = 0.2, 0.6
 """Thickness of the thinnest walls that are told from lines, in usual walls."""
 
-BLOT = 3.0
+BLOT = 3.5
 """Thickness from which ink is more than two lines that touch, in lines."""
 
 THICK_SHARE = 0.1
@@ -262,13 +262,24 @@ def measure(ink: ByteArray) -> Measures:
     between = _common_only(hollow) * (np.arange(len(hollow)) + 2 * line)
     thick = area.copy()
     thick[: 2 * line + 1] = 0.0
-    if thick.sum() >= max(THICK_SHARE * area.sum(), between.sum()):
+    least = between.sum()
+    if thick.sum() >= THICK_SHARE * area.sum() and (
+        not least or _long_solid(ink, line) >= least
+    ):
         return _of_solid(lengths, thick, hollow, line)
     if _are_walls(between, area, line):
         wall = half_way(between) + 2 * line
         return _of(line, round(BLOT * line), wall, hollow)
     wall = half_way(area)
     return _of(line, max(round(wall / 2), 1), wall, bare=True)
+
+
+def _long_solid(ink: ByteArray, line: int) -> int:
+    """Return the area of long thick strokes, px: blots of text are short."""
+    thick = opened(ink, box(2 * line + 1))
+    length = LONG_SHARE / 2 * max(ink.shape)
+    long = opened(thick, box(length, 1)) | opened(thick, box(1, length))
+    return int(np.count_nonzero(long))
 
 
 def _common_only(hollow: FloatArray) -> FloatArray:
@@ -324,7 +335,7 @@ def _of(
         solid=solid,
         wall=max(wall, 1.0),
         gaps=gaps,
-        rare=tuple(gap for gap in every if gap not in gaps),
+        rare=tuple(gap for gap in every if gap not in gaps and gap < max(gaps)),
         thick=thick,
         bare=bare,
     )
