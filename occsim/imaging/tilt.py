@@ -8,10 +8,10 @@ from occsim.imaging.drawing import Drawing
 from occsim.imaging.transform import Transform
 
 MAX_TILT_RAD = np.radians(12.0)
-"""Largest tilt that `estimate_tilt` looks for; beyond it a page was meant to lie so."""
+"""Largest tilt that `estimate_tilt` looks for; a larger one is taken as intended."""
 
-# The tilt shows as well in a smaller picture, and faster. Walls of a thousand px move
-# by a pixel in 0.06 degrees.
+# A smaller picture gives the same tilt in less time. Walls of a thousand px move by a
+# pixel in 0.06 degrees.
 _TILT_SIDE_PX = 1000
 _TILT_POINTS = 20_000
 _COARSE_STEP_RAD = np.radians(0.25)
@@ -21,7 +21,7 @@ _EDGE_CONTRAST = 24.0
 _FEWEST_EDGES = 200
 # Edge pixels in rows at the best angle against those at a usual angle.
 _CLEAR_PEAK = 1.3
-# The part of the peak whose centre is taken.
+# Share of the peak's height above which its centre is taken.
 _PEAK_FLOOR = 0.8
 # Blur that hides the steps of oblique lines, px, and how far from the direction of
 # most contrast the lines may then lie.

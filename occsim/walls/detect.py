@@ -206,6 +206,8 @@ def _certainty(
     doubtful = dropped | pieces.chosen(pieces.longest >= m.wall)
     area = int(np.count_nonzero(found))
     kept = int(np.count_nonzero(ink.rest & found))
+    removed = 1 - kept / max(int(np.count_nonzero(ink.every)), 1)
+    shaking = int(np.count_nonzero(shaky)) / max(area, 1)
     notes = []
     if not area:
         notes.append("No walls were found.")
@@ -215,8 +217,8 @@ def _certainty(
         notes.append("Walls are drawn as pairs of lines here.")
     return (
         Certainty(
-            confidence=max(0.0, 1 - np.count_nonzero(shaky) / area) if area else 0.0,
-            removed_share=1 - kept / max(int(np.count_nonzero(ink.every)), 1),
+            confidence=max(min(1 - shaking, 1 - removed), 0.0) if area else 0.0,
+            removed_share=removed,
             dropped=len(components(dropped).area) - 1,
             wall_px=m.wall / scale if area else float("nan"),
             doors_px=tuple((door.radius_px + m.line) / scale for door in ink.doors),

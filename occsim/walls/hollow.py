@@ -168,21 +168,24 @@ def _joined(
     from a wall in line with them; across a line they may only touch what is surely
     wall.
     """
-    across, ahead = 4 * m.line + 1, 2 * AHEAD * m.wall
-    sides, ends = (
-        (box(across, 1), box(1, ahead))
-        if s.upright
-        else (box(1, across), box(ahead, 1))
-    )
+    line, joint, ahead = 4 * m.line + 1, 4 * m.wall, 2 * AHEAD * m.wall
     joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall)
     joined &= ~_rare(s, m) | _long(s, m)
-    joined &= _touched(s, dilated(walls, sides)) <= BESIDE_SHARE * s.length
-    near = dilated(walls, box(3)) | dilated(found[s.upright], ends)
-    near |= dilated(
-        found[not s.upright], box(across, 1) if not s.upright else box(1, across)
-    )
-    near |= dilated(found[not s.upright], sides)
-    return joined & (_touched(s, near) > 0)
+    joined &= _touched(s, _grown(walls, s, across=line)) <= BESIDE_SHARE * s.length
+    in_line, crossing = found[s.upright], found[not s.upright]
+    near = dilated(walls, box(3)) | _grown(in_line, s, along=ahead)
+    near |= _grown(crossing, s, along=line) | _grown(crossing, s, across=line)
+    reached = _touched(s, near) > 0
+    # What stands in the corner of a room may hide where a long wall meets another.
+    reached |= _long(s, m) & (_touched(s, _grown(crossing, s, along=joint)) > 0)
+    return joined & reached
+
+
+def _grown(
+    mask: ByteArray, s: Strips, *, along: float = 1, across: float = 1
+) -> ByteArray:
+    """Return a mask grown along strips and across them, full widths in px."""
+    return dilated(mask, box(across, along) if s.upright else box(along, across))
 
 
 def _touched(s: Strips, near: ByteArray) -> IntArray:
