@@ -11,12 +11,12 @@ from occsim.errors import ParameterError
 from occsim.imaging import Drawing
 from occsim.samples import load_sample
 from occsim.walls import (
-    STAGE_NOTES,
     MaskError,
     WallParams,
     compare_masks,
     detect_walls,
 )
+from pages._ui.your_building.stages import STAGE_NOTES
 
 DOOR = 30  # px, length of a leaf in the plans below
 

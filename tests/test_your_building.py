@@ -3,7 +3,7 @@
 import io
 import math
 import zipfile
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import cv2
 import numpy as np
@@ -19,6 +19,8 @@ from occsim import (
     load_sample,
 )
 from occsim.io.project import Project, dump_project
+from occsim.walls import WallParams
+from pages._ui.compute import with_walls
 from pages._ui.state import OPENING
 from pages._ui.your_building import poses
 from tests.boards import committed_tiles
@@ -432,3 +434,22 @@ def test_a_bad_file_is_answered_in_one_sentence_and_loses_nothing(case):
     assert len(app.error) == 1
     assert "\n" not in app.error[0].value
     assert own(app) is kept
+
+
+@pytest.mark.parametrize("end", ["low", "high"])
+def test_a_project_with_wall_parameters_at_their_bounds_opens_on_the_page(end):
+    """The page's sliders take whatever the library allows."""
+    values = {
+        one.name: getattr(one.metadata["bounds"], end)
+        for one in fields(WallParams)
+        if "bounds" in one.metadata
+    }
+    assert values
+    project = replace(with_walls(load_sample("d")), wall_params=WallParams(**values))
+    app = with_rooms()
+    data = dump_project(Project(building=project))
+    app = upload(at("7 Keep", app), "Project file", "mine.zip", data, "application/zip")
+    assert not app.error
+    app = at("3 Walls", app)
+    assert not app.error
+    assert own(app).wall_params == WallParams(**values)

@@ -104,32 +104,3 @@ def _checked(name: str, value: object) -> float:
     if not (low <= number <= high and math.isfinite(number)):
         raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]; got {value!r}")
     return number
-
-
-class Slider(NamedTuple):
-    """A parameter that steers a stage: field of `WallParams`, and its words."""
-
-    field: str
-    label: str
-
-    @property
-    def low(self) -> float:
-        """Least value."""
-        return WallParams.bounds(self.field).low
-
-    @property
-    def high(self) -> float:
-        """Largest value."""
-        return WallParams.bounds(self.field).high
-
-    @property
-    def step(self) -> float:
-        """Step of the slider."""
-        return WallParams.bounds(self.field).step
-
-
-class StageNote(NamedTuple):
-    """A sentence for students about a stage, and the parameters that steer it."""
-
-    sentence: str
-    sliders: tuple[Slider, ...]

@@ -14,7 +14,7 @@ class Stage(NamedTuple):
     Parameters
     ----------
     title : str
-        Its name; a key of :data:`occsim.walls.STAGE_NOTES`.
+        Its name.
     image : ndarray of uint8, shape (h, w)
         Black (0) on white (255), or grey levels; of the drawing's size, or of the
         working size where that is smaller.

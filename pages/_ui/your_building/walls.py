@@ -5,10 +5,11 @@ from functools import partial
 
 import streamlit as st
 
-from occsim.walls import STAGE_NOTES, Slider, WallParams
+from occsim.walls import WallParams
 from pages._ui import compute, state, words
 from pages._ui.state import boards as kept
 from pages._ui.your_building import lengths, masks
+from pages._ui.your_building.stages import STAGE_NOTES, Slider
 
 COLUMNS = 5
 """Height of the pictures: two rows, large enough to see a door leaf removed."""

@@ -1,6 +1,38 @@
 """What each stage of wall detection does, in words, and what steers it."""
 
-from occsim.walls.params import Slider, StageNote
+from typing import NamedTuple
+
+from occsim.walls import WallParams
+
+
+class Slider(NamedTuple):
+    """A parameter that steers a stage: field of `WallParams`, and its words."""
+
+    field: str
+    label: str
+
+    @property
+    def low(self) -> float:
+        """Least value."""
+        return WallParams.bounds(self.field).low
+
+    @property
+    def high(self) -> float:
+        """Largest value."""
+        return WallParams.bounds(self.field).high
+
+    @property
+    def step(self) -> float:
+        """Step of the slider."""
+        return WallParams.bounds(self.field).step
+
+
+class StageNote(NamedTuple):
+    """A sentence for students about a stage, and the parameters that steer it."""
+
+    sentence: str
+    sliders: tuple[Slider, ...]
+
 
 STAGE_NOTES: dict[str, StageNote] = {
     "Darkness": StageNote(
