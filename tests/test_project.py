@@ -453,3 +453,11 @@ def test_a_damaged_byte_is_refused_or_changes_a_value_within_its_bounds(data):
     except ProjectError:
         return
     assert opened.building.drawing.shape == SHAPE
+
+
+def test_a_project_with_wall_parameters_of_release_0_1_opens():
+    """It named parameters that the detection no longer has; they are left out."""
+    old = {"ink_level": 0.3, "fill_level": 0.2, "max_symbol_px": 9.0}
+    old |= {"max_wall_px": 40.0, "min_slenderness": 3.0}
+    project = load_project(archive_with(json_with(wall_params=old)))
+    assert project.building.wall_params == WallParams(ink_level=0.3)

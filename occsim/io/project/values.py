@@ -165,8 +165,14 @@ def _sensor(value: object, door_px: float | None) -> Sensor:
     return Sensor(**checked)
 
 
+RETIRED = ("fill_level", "max_symbol_px", "max_wall_px", "min_slenderness")
+"""Parameters of wall detection in release 0.1; its project files hold them."""
+
+
 def _wall_params(value: object) -> WallParams:
-    """Return the settings of wall detection."""
+    """Return the settings of wall detection, without those that it no longer has."""
+    if isinstance(value, dict):
+        value = {key: got for key, got in value.items() if key not in RETIRED}
     return WallParams(**_parameters(value, "wall_params", WallParams))
 
 

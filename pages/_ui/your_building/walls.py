@@ -40,7 +40,8 @@ def _how_sure() -> str:
             "draw the walls by hand (4 Corrections)."
         )
     facts = [
-        f"**Sure to {words.percent(sure.confidence)}.** Most walls are about "
+        f"**Certainty {sure.confidence:.2f}** on a scale from 0 to 1 that ranks "
+        "drawings; it is no share of right walls. Most walls are about "
         f"{lengths.length(sure.wall_px)} thick",
         f"{words.percent(sure.removed_share)} of the ink was left out",
     ]
