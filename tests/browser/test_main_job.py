@@ -1,21 +1,13 @@
 """The main job in a browser: open, change, leave and return, upload a drawing."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
-from occsim import (
-    Prior,
-    Sensor,
-    build_prior,
-    collect_evidence,
-    fuse,
-    load_drawing,
-    score,
-    truth_cells,
-)
+from occsim import MappingRun, MapSettings, Prior, load_drawing
 from occsim.building import building_from_drawing
 from pages._ui.uploads import WORKING_PX
 
@@ -151,14 +143,11 @@ def test_a_drawing_that_is_not_ours_maps_at_once(page, app_url):
     total = int(shown(page, "nReadings"))
     page.locator("[data-part=scrub]").fill(str(total))
 
-    # The same by occsim, with the settings that the page opened with.
-    sensor = Sensor(range_px=40.0, fov_rad=np.pi / 6)
+    # The same by occsim: the range is the proposed length of a door, in whole pixels.
     drawing = load_drawing(data, name="foreign.png")
-    own = building_from_drawing(drawing, sensor, working_px=WORKING_PX)
-    grid = own.world.grid(3)
-    log = collect_evidence(own.world, own.trajectory, sensor, grid)
-    prior_map = build_prior(own.wall_mask, grid, Prior())
-    expected = score(fuse(log, prior_map), truth_cells(own.world, grid))
+    own = building_from_drawing(drawing, working_px=WORKING_PX)
+    sensor = replace(own.sensor, range_px=float(round(own.sensor.range_px)))
+    expected = MappingRun(own, MapSettings(sensor=sensor)).scores(Prior())
     assert total == len(own.trajectory)
     assert counts(page) == (expected.tp, expected.fp, expected.fn, expected.tn)
 

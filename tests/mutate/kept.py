@@ -4,5 +4,6 @@ from tests.mutate.arithmetic import ARITHMETIC
 from tests.mutate.buildings import BUILDINGS
 from tests.mutate.mutation import Mutation
 from tests.mutate.scripts import SCRIPTS
+from tests.mutate.walls import WALLS
 
-MUTATIONS: tuple[Mutation, ...] = (*ARITHMETIC, *BUILDINGS, *SCRIPTS)
+MUTATIONS: tuple[Mutation, ...] = (*ARITHMETIC, *BUILDINGS, *SCRIPTS, *WALLS)

@@ -22,7 +22,7 @@ from pages._ui.state.works import WORKS
 
 OWN = "own"
 OPENING = "b"
-"""The drawing that the app opens with: a shelf and a balcony are taken for walls, so
+"""The drawing that the app opens with: parts of furniture are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
 GONE = (
     "The building of this link is no longer on this server: the server was "

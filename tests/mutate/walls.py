@@ -1,0 +1,106 @@
+"""Kept mutations of wall detection."""
+
+from tests.mutate.mutation import Mutation
+
+TESTS = ("tests/test_walls_kinds.py", "tests/test_walls.py")
+
+WALLS: tuple[Mutation, ...] = (
+    Mutation(
+        "occsim/walls/detect.py",
+        "ALL_INK = 0.6",
+        "ALL_INK = 0.3",
+        TESTS,
+        "a sheet that is nearly all ink",
+    ),
+    Mutation(
+        "occsim/walls/sheet.py",
+        "WINDOW_SHARE = 1 / 8",
+        "WINDOW_SHARE = 1 / 60",
+        TESTS,
+        "the paper is followed over a wide window",
+    ),
+    Mutation(
+        "occsim/walls/sheet.py",
+        "WORKING_PIXELS = 1_500_000",
+        "WORKING_PIXELS = 300_000",
+        TESTS,
+        "the working copy is large enough for thin lines",
+    ),
+    Mutation(
+        "occsim/walls/strokes.py",
+        "RISE = 1.7",
+        "RISE = 6.0",
+        TESTS,
+        "lines and walls are told apart by their thickness",
+    ),
+    Mutation(
+        "occsim/walls/strokes.py",
+        "HOLLOW_SHARE = 0.2",
+        "HOLLOW_SHARE = 0.9",
+        TESTS,
+        "hollow walls are a style of their own",
+    ),
+    Mutation(
+        "occsim/walls/strokes.py",
+        "COMMON_SHARE = 0.2",
+        "COMMON_SHARE = 0.9",
+        TESTS,
+        "what is common is a share of what is commonest",
+    ),
+    Mutation(
+        "occsim/walls/hollow.py",
+        "SEED_LENGTH = 5.0",
+        "SEED_LENGTH = 20.0",
+        TESTS,
+        "a short hollow wall is a wall",
+    ),
+    Mutation(
+        "occsim/walls/hollow.py",
+        "SURE_SHARE = 0.3",
+        "SURE_SHARE = 0.95",
+        TESTS,
+        "a hollow wall needs both of its lines for a part only",
+    ),
+    Mutation(
+        "occsim/walls/doors.py",
+        "ON_ARC = 0.7",
+        "ON_ARC = 1.1",
+        TESTS,
+        "door swings are found",
+    ),
+    Mutation(
+        "occsim/walls/doors.py",
+        "LEAF_COVER = 0.8",
+        "LEAF_COVER = 2.0",
+        TESTS,
+        "leaves are taken away",
+    ),
+    Mutation(
+        "occsim/walls/groups.py",
+        "DOORWAY = 8.0",
+        "DOORWAY = 0.5",
+        TESTS,
+        "walls that face each other across a doorway belong together",
+    ),
+    Mutation(
+        "occsim/walls/groups.py",
+        "SMALL_GROUP = 10.0",
+        "SMALL_GROUP = 200.0",
+        TESTS,
+        "a free-standing core is kept",
+    ),
+    Mutation(
+        "occsim/walls/scale.py",
+        "DOOR_WALLS = 4.0",
+        "DOOR_WALLS = 8.0",
+        TESTS,
+        "a door is four walls long",
+    ),
+    Mutation(
+        "occsim/walls/scale.py",
+        "SPREAD = 0.15",
+        "SPREAD = 0.9",
+        TESTS,
+        "doors of one building agree in length",
+    ),
+)
