@@ -23,7 +23,7 @@ from occsim import (
     truth_cells,
 )
 from occsim.errors import ParameterError, TrajectoryError
-from occsim.geometry import CARDINAL_HEADINGS_RAD
+from occsim.geometry import CARDINAL_HEADINGS_RAD, wrap_angle
 from occsim.tour import (
     clearance_map,
     default_tour,
@@ -474,6 +474,24 @@ def test_looks_from_one_place_follow_each_other():
     looks = np.unique(tour.poses, axis=0)
     assert len(looks) >= 0.95 * len(tour)  # but for corners passed twice
     assert len(np.unique(stops, axis=0)) >= 0.95 * len(stops)
+
+
+def test_robot_turns_on_from_the_heading_it_arrives_with():
+    """Of the looks at a place, the first is the nearest to the direction of arrival."""
+    tour = default_tour(house(), Sensor(range_px=20))
+    arrival, turned = None, 0
+    for (x, y), group in itertools.groupby(
+        tour.poses, key=lambda pose: tuple(pose[:2])
+    ):
+        looks = np.array([pose[2] for pose in group])
+        if arrival is not None and len(looks) > 1:
+            way = np.round(np.arctan2(y - arrival[1], x - arrival[0]) / (np.pi / 2), 6)
+            # Half-way between two headings, the next one clockwise counts.
+            off = np.abs(wrap_angle(looks - np.floor(way + 0.5) * np.pi / 2))
+            assert off[0] == pytest.approx(off.min())
+            turned += 1
+        arrival = x, y
+    assert turned >= 5
 
 
 def test_small_house_on_a_large_sheet_is_toured_and_not_the_sheet():

@@ -183,7 +183,7 @@ def _looks(
     x, y = lattice.points_px(nodes).T / spacing_px
     square = np.floor(y) * (np.floor(x).max() + 1.0) + np.floor(x)
     off_centre = np.hypot(x % 1.0 - 0.5, y % 1.0 - 0.5)
-    order = np.lexsort((off_centre, -clearance[nodes], square))
+    order = np.lexsort((off_centre, square))
     _, first = np.unique(square[order], return_index=True)
     # In no order of place: of views that show as much, those chosen lie far apart.
     spots = np.random.default_rng(0).permutation(nodes[order[first]])
