@@ -8,9 +8,9 @@ WALLS: tuple[Mutation, ...] = (
     Mutation(
         "occsim/walls/detect.py",
         "ALL_INK = 0.6",
-        "ALL_INK = 0.3",
+        "ALL_INK = 1.1",
         TESTS,
-        "a sheet that is nearly all ink",
+        "a sheet that is nearly all ink has no walls",
     ),
     Mutation(
         "occsim/walls/sheet.py",
@@ -25,13 +25,6 @@ WALLS: tuple[Mutation, ...] = (
         "WORKING_PIXELS = 300_000",
         TESTS,
         "the working copy is large enough for thin lines",
-    ),
-    Mutation(
-        "occsim/walls/strokes.py",
-        "RISE = 1.7",
-        "RISE = 6.0",
-        TESTS,
-        "lines and walls are told apart by their thickness",
     ),
     Mutation(
         "occsim/walls/strokes.py",
