@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import importlib
 import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -15,6 +16,10 @@ from pages._ui import state, words
 from pages._ui.components.address import address
 
 LOG = logging.getLogger(__name__)
+
+# Streamlit imports pandas when it is first needed, and plotly looks for it without
+# waiting: a chart that is drawn meanwhile finds half of it. Here it is whole first.
+importlib.import_module("pandas")
 
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
