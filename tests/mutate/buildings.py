@@ -152,13 +152,6 @@ BUILDINGS: tuple[Mutation, ...] = (
     ),
     Mutation(
         "pages/_ui/components/board/document.js",
-        "  touch(b, patch.box);\n",
-        "",
-        ("tests/node/document.test.mjs",),
-        "what was undone is committed",
-    ),
-    Mutation(
-        "pages/_ui/components/board/document.js",
         "if (turn === b.sending)",
         "if (turn)",
         ("tests/node/document.test.mjs",),

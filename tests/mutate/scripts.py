@@ -258,14 +258,14 @@ _ROWS = (
         "player/controls.js",
         "{ p_space: 0, p_wall: 1 }",
         "{ p_space: 1, p_wall: 0 }",
-        f"{IN_BROWSER}a_slider_tells_the_probability_that_it_sets",
+        f"{IN_BROWSER}a_slider_shows_the_probability_that_it_sets",
         "sliders that show each other's probability",
     ),
     (
         "player/inspector.js",
         'declaresWall(model, logOdds) ? "wall" : "no wall"',
         'declaresWall(model, logOdds) ? "no wall" : "wall"',
-        f"{IN_BROWSER}hovering_tells_a_cells_numbers_on_both_pictures",
+        f"{IN_BROWSER}hovering_shows_a_cells_numbers_on_both_pictures",
         "a cell whose class is shown the wrong way round",
     ),
     (
