@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
-from urllib.parse import urlencode, urlsplit, urlunsplit
 
 import streamlit as st
 
@@ -142,12 +141,6 @@ def work_key() -> str | None:
         state.my_key = WORKS.keep(state.own, mine)
         state.work = state.my_key, state.own
     return state.work[0]
-
-
-def link() -> str:
-    """Return the address of this page with this drawing and these settings."""
-    page = urlsplit(st.context.url or "")
-    return urlunsplit(page._replace(query=urlencode(query()), fragment=""))
 
 
 # --- The building -----------------------------------------------------------------
