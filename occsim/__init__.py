@@ -11,6 +11,7 @@ from occsim.corrections import Corrections
 from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
 from occsim.evidence import collect_evidence, collect_totals, stream_evidence
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
+from occsim.flaws import DrawingFlaws, flawed_mask
 from occsim.grid import Grid
 from occsim.imaging import Drawing, load_drawing
 from occsim.io.trajectories import TrajectoryFormat, dump_trajectory, load_trajectory
@@ -54,7 +55,7 @@ from occsim.priors import (
     sweep_priors,
 )
 from occsim.run import MappingRun, MapSettings
-from occsim.samples import Sample, load_sample, sample_names
+from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
@@ -69,6 +70,7 @@ __all__ = [
     "Corrections",
     "Drawing",
     "DrawingError",
+    "DrawingFlaws",
     "Elitism",
     "EvidenceLog",
     "EvidenceTotals",
@@ -108,6 +110,7 @@ __all__ = [
     "dump_trajectory",
     "exact_front",
     "exact_objective",
+    "flawed_mask",
     "fuse",
     "good_region",
     "hypervolume",
@@ -124,6 +127,7 @@ __all__ = [
     "nsga2_front",
     "nsga2_generations",
     "p_free_from_log_odds",
+    "prior_drawing",
     "prior_surface",
     "recommend",
     "rectangles_at",

@@ -5,14 +5,14 @@ first asked for, and kept. Nothing of a run depends on a prior or on an update r
 those are arguments.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy.typing as npt
 
 from occsim._types import BoolArray
 from occsim.building import Building
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, bool_array
 from occsim.evidence import collect_evidence
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
@@ -78,6 +78,14 @@ class MappingRun:
     log : EvidenceLog, optional
         The readings, if already known, of the same world, trajectory, sensor and cells.
         By default they are simulated.
+    prior_mask : ndarray of bool, shape (H, W), optional
+        Walls that the prior is made from; the building's by default. The world stays
+        what it is.
+
+    Raises
+    ------
+    TypeError, ParameterError
+        Where `prior_mask` is not bool, or not of the drawing's size.
 
     Examples
     --------
@@ -91,6 +99,33 @@ class MappingRun:
     building: Building
     settings: MapSettings = MapSettings()
     log: EvidenceLog | None = None
+    prior_mask: BoolArray | None = None
+
+    def __post_init__(self) -> None:
+        if self.prior_mask is not None:
+            bool_array("prior_mask", self.prior_mask, self.building.drawing.shape)
+
+    def with_prior_mask(self, mask: BoolArray | None) -> "MappingRun":
+        """Return the run with a prior made from other walls.
+
+        Parameters
+        ----------
+        mask : ndarray of bool, shape (H, W), or None
+            The walls; None for the building's own.
+
+        Returns
+        -------
+        MappingRun
+            It shares the readings and the truth: nothing is simulated again.
+
+        Raises
+        ------
+        TypeError, ParameterError
+            Where the mask is not bool, or not of the drawing's size.
+        """
+        other = replace(self, log=self.evidence, prior_mask=mask)
+        vars(other)["truth_cells"] = self.truth_cells
+        return other
 
     @cached_property
     def grid(self) -> Grid:
@@ -111,8 +146,9 @@ class MappingRun:
 
     @cached_property
     def wall_cells(self) -> BoolArray:
-        """Cells in which the drawing shows a wall, ndarray of bool of shape (R, C)."""
-        mask = self.building.wall_mask
+        """Cells in which the prior has a wall, ndarray of bool of shape (R, C)."""
+        own = self.prior_mask
+        mask = self.building.wall_mask if own is None else own
         return wall_cells(mask, self.grid, self.settings.wall_share)
 
     @cached_property

@@ -189,6 +189,7 @@ GOOD = {
     "dominates": {"better": [0.5, 0.5], "worse": [0.5, 0.4]},
     "exact_front": {**CELLS, **CHOICES, **BOX, "scale": 0.9},
     "exact_objective": {**CELLS, **CHOICES, "scale": 0.9},
+    "flawed_mask": {"mask": WALL, "flaws": occsim.DrawingFlaws(thickness_px=1)},
     "fuse": {
         "evidence": LOG,
         "prior_map": PRIOR_MAP,
@@ -212,6 +213,7 @@ GOOD = {
     "nsga2_front": SEARCH,
     "nsga2_generations": {**SEARCH, "ref": (5.0, 5.0)},
     "p_free_from_log_odds": {"log_odds": [0.5]},
+    "prior_drawing": {"building": occsim.load_sample("c"), "which": "d"},
     "prior_surface": {**CELLS, **CHOICES, "scale": 0.9},
     "recommend": {"front": FRONT, "min_recall": 0.4},
     "rectangles_at": {"surface": SURFACE, "p_wall": 0.5, "p_space": 0.5, **BOX},
@@ -269,7 +271,7 @@ GOOD = {
 # Arguments of a fixed type: any other type is a TypeError, whatever its value.
 WHOLE = {"world", "trajectory", "sensor", "grid", "prior", "prior_map", "evidence"}
 WHOLE |= {"occupancy_map", "sweep", "surface", "front", "sweeps", "fronts"}
-WHOLE |= {"is_wall", "truth", "wall_mask"}
+WHOLE |= {"is_wall", "truth", "wall_mask", "mask", "flaws", "building"}
 STRANGE = {
     "nothing": None,
     "a number": 3,

@@ -16,6 +16,7 @@ ORDER = [
     {"grid"},
     {"imaging"},
     {"walls"},
+    {"flaws"},
     {"world"},
     {"corrections"},
     {"prior"},

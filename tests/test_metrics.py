@@ -63,6 +63,8 @@ def test_a_map_of_eight_cells_counted_by_hand():
     assert score(occupancy_map, truth) == Scores(tp=1, fp=1, fn=1, tn=1)
     everywhere = score(occupancy_map, truth, Region.ALL)
     assert everywhere == Scores(tp=3, fp=2, fn=2, tn=1)
+    unexplored = score(occupancy_map, truth, Region.UNEXPLORED)
+    assert unexplored == Scores(tp=2, fp=1, fn=1, tn=0)
     assert coverage(occupancy_map) == 0.5
 
 
@@ -165,7 +167,7 @@ def test_curves_equal_fusing_and_scoring_at_every_step(
     prior_map = prior_from_cells(is_wall, evidence.grid, prior)
     handed = evidence if in_parts_of is None else parts_of(evidence, in_parts_of)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("occsim.metrics.ENTRIES_AT_ONCE", at_once)
+        patch.setattr("occsim.metrics.curves.ENTRIES_AT_ONCE", at_once)
         curves = scores_by_reading(handed, prior_map, truth, rule, region)
     assert curves.tp.shape == (evidence.n_readings + 1,)
     for n in range(evidence.n_readings + 1):

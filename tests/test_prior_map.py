@@ -96,6 +96,8 @@ def test_unscored_cells_are_hatched_and_all_cells_can_be_scored():
     assert picture.count([200, 200, 200]) == 30
     everywhere = outcome_picture(unread, truth, COLOURS, Region.ALL)
     np.testing.assert_array_equal(everywhere, np.ones((6, 6, 3)))
+    unexplored = outcome_picture(unread, truth, COLOURS, Region.UNEXPLORED)
+    np.testing.assert_array_equal(unexplored, everywhere)
 
 
 def test_changes_diverge_from_zero_and_stop_at_the_limit():

@@ -8,7 +8,7 @@ import pytest
 from assets.samples.make import build
 from assets.samples.make.plan import Plan, Style
 from occsim.errors import ParameterError
-from occsim.samples import FOLDER, load_sample, sample_names
+from occsim.samples import FOLDER, load_sample, prior_drawing, sample_names
 
 NAMES = ("a", "b", "c", "d", "e")
 
@@ -136,3 +136,20 @@ def test_doors_are_gaps_and_windows_are_wall_in_the_truth():
     expected[8:10] = True
     expected[8:10, 4:10] = False
     np.testing.assert_array_equal(plan.truth(), expected)
+
+
+def test_a_prior_may_come_from_a_wrong_drawing():
+    """Its own, left and right exchanged, none at all, or another of the same size."""
+    c, d = load_sample("c"), load_sample("d")
+    assert prior_drawing(c) is c.wall_mask
+    np.testing.assert_array_equal(prior_drawing(c, "d"), d.wall_mask)
+    mirrored = prior_drawing(c, "mirrored")
+    np.testing.assert_array_equal(np.fliplr(mirrored), c.wall_mask)
+    assert (mirrored != c.wall_mask).any()
+    assert not prior_drawing(c, "empty").any()
+    assert prior_drawing(c, "empty").shape == c.wall_mask.shape
+
+
+def test_a_drawing_of_another_size_is_refused_and_the_fitting_ones_named():
+    with pytest.raises(ParameterError, match="'empty', 'c', 'd', 'e'; got 'a'"):
+        prior_drawing(load_sample("c"), "a")

@@ -96,6 +96,7 @@ def test_strings_name_the_same_choices(case_of_two):
             by_value = sweep_priors(*case_of_two, rule=rule.value, region=region.value)
             by_name = sweep_priors(*case_of_two, rule=rule, region=region)
             np.testing.assert_array_equal(by_value.tp, by_name.tp)
+    by_name = sweep_priors(*case_of_two)
     for objective in Objective:
         assert maxima(by_name, objective.value).text == maxima(by_name, objective).text
     assert maxima(by_name, "precision").text != maxima(by_name, "recall").text

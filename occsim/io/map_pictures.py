@@ -105,8 +105,8 @@ def outcome_picture(
     """
     truth = cells_of("truth", truth, occupancy_map.grid)
     code = 2 * truth.astype(np.uint8) + is_occupied(occupancy_map.log_odds)
-    if choice("region", region, Region) is Region.EXPLORED:
-        code = np.where(occupancy_map.n_updates > 0, code, UNSEEN)
+    scored = choice("region", region, Region).scored(occupancy_map.n_updates)
+    code = np.where(scored, code, UNSEEN)
     by_code = (colours.free, colours.false_wall, colours.missed_wall, colours.hit)
     table = np.array([_rgb(c) for c in (*by_code, colours.unseen)], dtype=np.uint8)
     pixels = _cells_to_pixels(code.astype(np.uint8), occupancy_map.grid, zoom)

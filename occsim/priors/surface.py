@@ -197,8 +197,7 @@ def prior_surface(
     if not 0.0 < scale <= 1.0:
         raise ParameterError(f"scale must lie in (0, 1]; got {scale!r}")
     sums, counts = evidence.totals()
-    explored = choice("region", region, Region) is Region.EXPLORED
-    scored = counts > 0 if explored else np.ones_like(truth)
+    scored = choice("region", region, Region).scored(counts)
     sums, weight = sums[scored], prior_weight(counts[scored], rule)
     wall, hit = is_wall[scored], truth[scored]
     groups = (wall & hit, wall & ~hit, ~wall & hit, ~wall & ~hit)

@@ -20,8 +20,9 @@ from pathlib import Path
 
 import numpy as np
 
+from occsim._types import BoolArray
 from occsim.building import DOOR_WIDTH_M, Building
-from occsim.errors import ParameterError
+from occsim.errors import ParameterError, expect, shown
 from occsim.imaging import load_drawing
 from occsim.io.trajectories import load_trajectory
 from occsim.sensor import Sensor
@@ -42,6 +43,62 @@ def _index() -> dict[str, dict[str, str | float]]:
         (FOLDER / "samples.json").read_text(encoding="utf-8")
     )
     return entries
+
+
+OTHER_DRAWINGS = ("own", "mirrored", "empty")
+"""What `prior_drawing` takes beside the names of samples."""
+
+
+def prior_drawing(building: Building, which: str = "own") -> BoolArray:
+    """Return the walls of the drawing that a prior is made from, right or wrong.
+
+    Parameters
+    ----------
+    building : Building
+        The building that is mapped.
+    which : str, default "own"
+        ``"own"``; ``"mirrored"``, its own with left and right exchanged; ``"empty"``, a
+        sheet without walls; or the name of a sample of the same size.
+
+    Returns
+    -------
+    ndarray of bool, shape (H, W)
+
+    Raises
+    ------
+    TypeError
+        Where the building is no `Building`, or the name no text.
+    ParameterError
+        Where there is no such drawing, or it has another size.
+
+    Examples
+    --------
+    >>> from occsim import load_sample, prior_drawing
+    >>> building = load_sample("c")
+    >>> wrong = prior_drawing(building, "d")
+    >>> bool((wrong == load_sample("d").wall_mask).all())
+    True
+    """
+    expect("building", building, Building)
+    expect("which", which, str)
+    if which == "own":
+        return building.wall_mask
+    if which == "mirrored":
+        return np.ascontiguousarray(building.wall_mask[:, ::-1])
+    if which == "empty":
+        return np.zeros_like(building.wall_mask)
+    fitting = drawings_of_size(building.drawing.shape)
+    if which not in fitting:
+        names = ", ".join(repr(name) for name in (*OTHER_DRAWINGS, *fitting))
+        raise ParameterError(
+            f"the drawing of this prior must be one of {names}; got {shown(which)}"
+        )
+    return load_sample(which).wall_mask
+
+
+def drawings_of_size(shape: tuple[int, int]) -> tuple[str, ...]:
+    """Return the names of the samples whose drawing has this height and width, px."""
+    return tuple(n for n in sample_names() if load_sample(n).drawing.shape == shape)
 
 
 def sample_names() -> tuple[str, ...]:

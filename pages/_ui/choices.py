@@ -85,6 +85,7 @@ CHOICES: Mapping[Enum, str] = {
     "reconstruct it)",
     Region.EXPLORED: "Explored cells",
     Region.ALL: "All cells",
+    Region.UNEXPLORED: "Cells not looked at",
     Overlay.NONE: "None",
     Overlay.WALL_MASK: "Wall mask",
     Overlay.TRUTH: "Ground truth",

@@ -67,8 +67,8 @@ _ROWS = (
     ),
     (
         "player/model.js",
-        "if (k > 0 || allCells) counts",
-        "if (k > 0) counts",
+        'if (region !== (k > 0 ? "unexplored" : "explored")) counts[was]--',
+        "if (k > 0) counts[was]--",
         MODEL,
         "unseen cells counted twice",
     ),
@@ -109,8 +109,8 @@ _ROWS = (
     ),
     (
         "player/cells.js",
-        "const isScored = model.counts[c] > 0 ||",
-        "const isScored = model.counts[c] >= 0 ||",
+        "inks.region !== (model.counts[c] > 0 ?",
+        "inks.region !== (model.counts[c] >= 0 ?",
         CELLS,
         "unseen cells painted as scored",
     ),
@@ -138,7 +138,7 @@ _ROWS = (
     (
         "player/cells.js",
         "if (inks.isErrors) drawHatch(",
-        "if (inks.allCells) drawHatch(",
+        'if (inks.region === "all") drawHatch(',
         OUTCOMES,
         "unseen cells not hatched",
     ),

@@ -59,13 +59,13 @@ test("the ground truth tints the cells that are wall in truth", () => {
   });
 });
 
-for (const region of ["explored", "all"]) {
+for (const region of ["explored", "all", "unexplored"]) {
   test(`errors are told apart, ${region} cells scored`, () => {
     const { model, pixels } = painted(2, { overlay: "errors", region });
     pixels.forEach(([value], c) => {
       const l = player.logOddsAt(model, c);
       const outcome = l < -1e-9 ? (model.truth[c] ? 1 : 2) : model.truth[c] ? 3 : 4;
-      assert.equal(value, model.counts[c] || region === "all" ? outcome : 5);
+      assert.equal(value, region === (model.counts[c] ? "unexplored" : "explored") ? 5 : outcome);
     });
     assert.ok([...model.counts].includes(0));
   });

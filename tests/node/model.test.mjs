@@ -63,7 +63,7 @@ test("an exact tie is no wall, in map and scores", () => {
   const model = modelOf(byHand(), state);
   player.seek(model, 1);
   assert.equal(player.outcomeAt(model, 1, player.logOddsAt(model, 1)), 3);
-  const { counts } = player.scoreCurves(model, false);
+  const { counts } = player.scoreCurves(model, "explored");
   assert.deepEqual(
     counts.map((curve) => curve[1]),
     [0, 0, 1, 1],
@@ -120,7 +120,7 @@ test("a step tells the entries that changed, forwards and back", () => {
 test("the counts at every step are those of a naive score", () => {
   for (const [i, state] of STATES.entries()) {
     const world = randomReplay(i);
-    const curves = player.scoreCurves(modelOf(world.replay, state), state.region === "all");
+    const curves = player.scoreCurves(modelOf(world.replay, state), state.region);
     for (let step = 0; step <= 40; step++) {
       const { counts, explored } = naiveCounts(world, step, state);
       assert.deepEqual(

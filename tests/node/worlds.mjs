@@ -75,7 +75,7 @@ export function naiveCounts(world, step, state) {
       .map(([cell]) => cell),
   );
   naiveLogOdds(world, step, state).forEach((l, cell) => {
-    if (state.region !== "all" && !seen.has(cell)) return;
+    if (state.region === (seen.has(cell) ? "unexplored" : "explored")) return;
     const isDeclared = l < -1e-9;
     counts[isDeclared ? (world.truth[cell] ? 0 : 1) : world.truth[cell] ? 2 : 3]++;
   });
@@ -83,7 +83,7 @@ export function naiveCounts(world, step, state) {
 }
 
 export const STATES = ["prior_once", "subtract_prior"].flatMap((rule) =>
-  ["explored", "all"].flatMap((region) =>
+  ["explored", "all", "unexplored"].flatMap((region) =>
     [
       [0.2, 0.9],
       [1, 1],

@@ -25,7 +25,7 @@ function inksOf(colours, { overlay, region }) {
     unseen: pixelOf(rgbOf(colours.unseen)),
     marks: { wall_mask: "isWall", truth: "truth" }[overlay],
     isErrors: overlay === "errors",
-    allCells: region === "all",
+    region,
   };
 }
 
@@ -35,7 +35,7 @@ function colourAt(inks, model, c) {
     const level = Math.round(255 * pFreeOf(logOdds));
     return (model[inks.marks]?.[c] ? inks.tinted : inks.grey)[level];
   }
-  const isScored = model.counts[c] > 0 || inks.allCells;
+  const isScored = inks.region !== (model.counts[c] > 0 ? "unexplored" : "explored");
   return isScored ? inks.outcomes[outcomeAt(model, c, logOdds)] : inks.unseen;
 }
 

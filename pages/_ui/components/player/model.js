@@ -85,15 +85,15 @@ function outcomeAt(model, c, logOdds) {
 
 // The four counts and the number of explored cells after 0, 1, ..., S readings, in one
 // pass over the entries.
-function scoreCurves(model, allCells) {
+function scoreCurves(model, region) {
   const curve = () => new Uint32Array(model.nReadings + 1);
   const curves = { counts: [curve(), curve(), curve(), curve()], explored: curve() };
-  const now = allCells ? priorCounts(model) : [0, 0, 0, 0];
+  const now = region === "explored" ? [0, 0, 0, 0] : priorCounts(model);
   let explored = 0;
   for (let s = 0; s <= model.nReadings; s++) {
     for (let i = 0; i < 4; i++) curves.counts[i][s] = now[i];
     curves.explored[s] = explored;
-    if (s < model.nReadings) explored += scoreReading(model, s, allCells, now);
+    if (s < model.nReadings) explored += scoreReading(model, s, region, now);
   }
   return curves;
 }
@@ -106,14 +106,16 @@ function priorCounts(model) {
 
 // Moves each cell that a reading updated from its old count to its new one; returns how
 // many cells it saw for the first time.
-function scoreReading(model, s, allCells, counts) {
+function scoreReading(model, s, region, counts) {
   const { indptr, cell, before, rank, logOdds } = model;
   let firstSeen = 0;
   for (let e = indptr[s]; e < indptr[s + 1]; e++) {
     const c = cell[e];
     const k = rank[e];
-    if (k > 0 || allCells) counts[outcomeAt(model, c, fused(model, c, before[e], k))]--;
-    counts[outcomeAt(model, c, fused(model, c, before[e] + logOdds[e], k + 1))]++;
+    const was = outcomeAt(model, c, fused(model, c, before[e], k));
+    const is = outcomeAt(model, c, fused(model, c, before[e] + logOdds[e], k + 1));
+    if (region !== (k > 0 ? "unexplored" : "explored")) counts[was]--;
+    if (region !== "unexplored") counts[is]++;
     if (k === 0) firstSeen++;
   }
   return firstSeen;

@@ -203,7 +203,7 @@ function recolour(p) {
   if (!model) return;
   const began = performance.now();
   setPrior(model, state);
-  p.curves = scoreCurves(model, state.region === "all");
+  p.curves = scoreCurves(model, state.region);
   p.series = scoreSeries(p.curves, model.nCells);
   paintAll(p.picture, model, state);
   showControls(p);
