@@ -2,8 +2,7 @@
 
 import streamlit as st
 
-from occsim import MapSettings, load_sample
-from pages._ui import compute, shell, words
+from pages._ui import compute, shell, state, words
 from pages._ui.components.player import PlayerDocument, map_player
 
 HOME_SAMPLE = "a"
@@ -29,10 +28,8 @@ with shell.page("app.py"):
             )
             st.caption(lesson.purpose)
     with picture:
-        sample = load_sample(HOME_SAMPLE)
-        replay = compute.replay(
-            compute.sample(HOME_SAMPLE), MapSettings(sensor=sample.sensor)
-        )
+        sample = compute.sample(HOME_SAMPLE)
+        replay = compute.replay(sample, state.defaults(HOME_SAMPLE))
         map_player(replay, HOME_REPLAY, key="home_player")
         st.caption(
             f"The robot maps “{sample.title}”. White is free, black is occupied. "

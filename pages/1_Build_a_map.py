@@ -32,7 +32,9 @@ def _controls() -> None:
         controls.drawing_choice()
         for name in ("cell_px", "range_px", "fov_deg"):
             controls.slider(name, width=controls.NARROW_PX)
+        controls.drawing_errors()
         with st.popover("More settings"):
+            controls.presets()
             controls.radio("behind_hit")
             controls.toggle("clear_no_hit")
             controls.slider("wall_share")
@@ -70,16 +72,15 @@ def _words() -> None:
         )
     with predict:
         st.markdown(
-            r"**Predict.** Set $p_\text{wall}$ to 1, as if the drawing's walls were "
-            "free space, and score the explored cells: will recall rise or fall?"
+            "**Predict.** Choose the *uninformative prior*, a map without a drawing: "
+            "of the walls that the robot looks at, will it find more or fewer?"
         )
         with st.expander("And then?"):
             st.markdown(
-                "It falls: the prior no longer marks walls of which the robot sees "
-                "only the edge. Now choose *Take it off at every reading*: recall "
-                "rises, because from the second reading on this rule pushes a cell "
-                "*away* from its prior. A wall that was called free ends as "
-                "occupied, and so does a part of the free space."
+                "Fewer, on all five reference drawings. The wall cells that it misses "
+                "lie across an edge: part of the cell is space, and the robot sees "
+                "mostly that part. Where the robot has not looked, a map without a "
+                "drawing finds no wall at all."
             )
     with why:
         with st.expander("Why: the equations"):
@@ -93,7 +94,7 @@ with shell.page("pages/1_Build_a_map.py") as lesson:
     shell.heading(lesson)
     _controls()
     _notices()
-    replay = compute.replay(state.building(), state.settings().mapping)
+    replay = compute.replay(state.building(), state.settings())
     state.take_from_player(
         map_player(replay, state.player_document(), key=state.PLAYER_KEY)
     )

@@ -18,6 +18,7 @@ from pages._ui.choices import (
     Objectives,
     Overlay,
     Picture,
+    PriorDrawing,
     Surface,
 )
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
@@ -36,6 +37,10 @@ ANY_SETTINGS = st.builds(
     **{name: bounded(name) for name in ("cell_px", "range_px", "fov_deg")},
     **{name: bounded(name) for name in ("wall_share", "truth_share")},
     **{name: bounded(name) for name in ("p_wall", "p_space")},
+    **{name: bounded(name) for name in ("thickness_px", "shift_x_px", "shift_y_px")},
+    **{name: bounded(name) for name in ("rotation_deg", "drawing_scale")},
+    **{name: bounded(name) for name in ("missing_share", "false_share", "flaw_seed")},
+    prior_drawing=st.sampled_from(PriorDrawing),
     behind_hit=st.sampled_from(BehindHit),
     clear_no_hit=st.booleans(),
     uninformative=st.booleans(),

@@ -71,10 +71,30 @@ class Objectives(Enum):
 
 
 class Handover(Enum):
-    """Which prior pair the guided path recommends."""
+    """Which answer to "the best prior" is handed over."""
 
     RECOMMENDED = "recommended"
     CHOSEN = "chosen"
+
+
+class PriorDrawing(Enum):
+    """Which drawing the prior is made from."""
+
+    OWN = "own"
+    MIRRORED = "mirrored"
+    EMPTY = "empty"
+    A = "a"
+    B = "b"
+    C = "c"
+    D = "d"
+    E = "e"
+
+
+class Preset(Enum):
+    """A named set of conditions."""
+
+    BAYES = "bayes"
+    SOURCE = "source"
 
 
 CHOICES: Mapping[Enum, str] = {
@@ -83,7 +103,7 @@ CHOICES: Mapping[Enum, str] = {
     UpdateRule.PRIOR_ONCE: "Count the drawing once",
     UpdateRule.SUBTRACT_PRIOR: "Take it off at every reading (the source, as we "
     "reconstruct it)",
-    Region.EXPLORED: "Explored cells",
+    Region.EXPLORED: "Cells looked at",
     Region.ALL: "All cells",
     Region.UNEXPLORED: "Cells not looked at",
     Overlay.NONE: "None",
@@ -111,6 +131,16 @@ CHOICES: Mapping[Enum, str] = {
     FrontAxes.INVERSE: "1/precision, 1/recall",
     Objectives.INTERPOLATED: "the source's table, interpolated",
     Objectives.EXACT: "each pair's own map",
+    PriorDrawing.OWN: "This building's own",
+    PriorDrawing.MIRRORED: "Its mirror image",
+    PriorDrawing.EMPTY: "An empty sheet",
+    **{
+        sample: f"That of building {sample.value}"
+        for sample in list(PriorDrawing)
+        if len(sample.value) == 1
+    },
+    Preset.BAYES: "By Bayes' rule",
+    Preset.SOURCE: "As in the source",
     Elitism.FULL: "NSGA-II",
     Elitism.CONTROLLED: "NSGA-II, controlled elitism",
 }

@@ -10,18 +10,21 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from occsim import (
+    DrawingFlaws,
     MappingRun,
     MapSettings,
     ParameterError,
     Prior,
+    flawed_mask,
     load_sample,
+    prior_drawing,
 )
-from occsim._types import FloatArray
+from occsim._types import BoolArray, FloatArray
 from occsim.building import Building, building_from_drawing
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
-from occsim.io.images import drawing_png, png
+from occsim.io.images import class_png, drawing_png, png
 from occsim.io.replay import MAX_ENTRIES, pack_replay
 from occsim.priors import (
     SOURCE_AXIS,
@@ -32,6 +35,7 @@ from occsim.priors import (
     reference_point,
     surface_objective,
 )
+from occsim.samples import OTHER_DRAWINGS, drawings_of_size
 from occsim.sensor import most_cells_in_view
 from occsim.study import StudyCase, StudySettings, run_case
 from occsim.study.cost import StepCost
@@ -43,7 +47,8 @@ from occsim.walls import (
     compare_masks,
     detect_walls,
 )
-from pages._ui.choices import Objectives
+from pages._ui import palette
+from pages._ui.choices import Objectives, PriorDrawing
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
 from pages._ui.shared import shared
@@ -53,6 +58,8 @@ from pages._ui.shared import shared
 _CORES = threading.BoundedSemaphore(os.cpu_count() or 1)
 
 
+PriorKey = tuple[PriorDrawing, DrawingFlaws]
+"""Which drawing a prior is made from, and what that gets wrong."""
 MANY_ENTRIES = 1_000_000
 """Cell updates of a run above which its timing is repeated less often."""
 
@@ -123,21 +130,28 @@ def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingR
     return run
 
 
-def replay(building: Building, settings: MapSettings) -> bytes:
+def replay(building: Building, settings: Settings) -> bytes:
     """The bytes that the map player replays."""
-    return _replay(building.digest, settings, building)
+    drawn = prior_key(building, settings)
+    return _replay(building.digest, settings.mapping, drawn, building, settings)
 
 
 @shared("Simulating the readings")
-def _replay(digest: str, settings: MapSettings, _building: Building) -> bytes:
-    run = mapped(_building, settings)
+def _replay(
+    digest: str,
+    mapping: MapSettings,
+    drawn: PriorKey,
+    _building: Building,
+    _settings: Settings,
+) -> bytes:
+    run = with_errors(_building, _settings)
     with core():
         return pack_replay(
             run.evidence,
             is_wall=run.wall_cells,
             truth=run.truth_cells,
             trajectory=run.building.trajectory,
-            sensor=settings.sensor,
+            sensor=mapping.sensor,
             drawing=run.building.drawing,
         )
 
@@ -147,7 +161,7 @@ def _replay(digest: str, settings: MapSettings, _building: Building) -> bytes:
 
 def run(building: Building, settings: Settings) -> Run:
     """A building mapped under some settings, its surface and front computed."""
-    made = Run(building, settings, mapped(building, settings.mapping))
+    made = Run(building, settings, with_errors(building, settings))
     with core():
         _ = made.front
     return made
@@ -157,6 +171,50 @@ def reference_run(name: str, settings: Settings) -> Run:
     """A reference drawing under some settings, the range its own door's length."""
     range_px = round(load_sample(name).sensor.range_px)
     return run(sample(name), with_changes(settings, {"range_px": range_px}))
+
+
+def prior_drawings(building: Building) -> list[PriorDrawing]:
+    """The drawings that a building's prior can be made from: those of its size."""
+    names = {*OTHER_DRAWINGS, *drawings_of_size(building.drawing.shape)}
+    return [one for one in PriorDrawing if one.value in names - {building.name}]
+
+
+def prior_key(building: Building, settings: Settings) -> PriorKey:
+    """Which drawing the prior is made from, and what that gets wrong."""
+    source = settings.prior_drawing
+    if source not in prior_drawings(building):
+        source = PriorDrawing.OWN  # chosen for a building of another size
+    return source, settings.flaws
+
+
+def prior_mask(building: Building, settings: Settings) -> BoolArray | None:
+    """The walls of the drawing with its errors; None where it has none."""
+    drawn = prior_key(building, settings)
+    if drawn == (PriorDrawing.OWN, DrawingFlaws()):
+        return None
+    return _prior_mask(building.digest, drawn, building)
+
+
+@shared()
+def _prior_mask(digest: str, drawn: PriorKey, _building: Building) -> BoolArray:
+    source, flaws = drawn
+    with core():
+        return flawed_mask(prior_drawing(_building, source.value), flaws)
+
+
+def with_errors(building: Building, settings: Settings) -> MappingRun:
+    """A building mapped, the prior made from the drawing with its errors."""
+    mask = prior_mask(building, settings)
+    return mapped(building, settings.mapping).with_prior_mask(mask)
+
+
+def errors_picture(building: Building, settings: Settings) -> bytes:
+    """A PNG of the walls of the prior over those of the building's drawing."""
+    own = building.wall_mask
+    mask = prior_mask(building, settings)
+    given = own if mask is None else mask
+    colours = palette.FREE, palette.MISSED_WALL, palette.FALSE_WALL, palette.HIT
+    return class_png(own.astype("uint8") + 2 * given, colours)
 
 
 def sweep(of: Run, values: Sequence[float]) -> PriorSweep:

@@ -5,9 +5,10 @@ from typing import Literal
 
 import streamlit as st
 
-from pages._ui import state, words
-from pages._ui.choices import CHOICES
-from pages._ui.settings import TABLE
+from pages._ui import compute, state, words
+from pages._ui import presets as named
+from pages._ui.choices import CHOICES, Preset
+from pages._ui.settings import TABLE, Settings
 
 CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
 """Plotly options of every chart: a click selects, and the wheel scrolls the page."""
@@ -100,6 +101,72 @@ def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
         width=width,
         **state.bind(name),
     )
+
+
+def presets() -> None:
+    """Draw the named sets of conditions, and say what departs from the nearest one."""
+    settings = state.settings()
+    with st.container(width="content"):
+        st.segmented_control(
+            "Conditions",
+            list(Preset),
+            format_func=CHOICES.__getitem__,
+            help="Each sets the update rule, what is said behind a hit, the cells that "
+            "are scored and the thickness of the drawing's walls. The source prints "
+            "neither its rule nor its walls: *As in the source* is our reconstruction.",
+            **state.bind_preset(),
+        )
+        nearest = named.nearest(settings)
+        left = named.departures(settings, nearest)
+        if left:
+            st.caption(f"{CHOICES[nearest]}, but changed: {', '.join(left)}.")
+
+
+ERRORS_LEGEND = (
+    "Black: a wall that the drawing keeps. Blue: a wall that it leaves out. Orange: a "
+    "wall that it invents."
+)
+ERRORS = (
+    "thickness_px",
+    "shift_x_px",
+    "shift_y_px",
+    "rotation_deg",
+    "drawing_scale",
+    "missing_share",
+    "false_share",
+)
+NO_ERRORS = {name: getattr(Settings(), name) for name in (*ERRORS, "prior_drawing")}
+
+
+def drawing_errors() -> None:
+    """Draw the group in which the drawing that the prior is made from gets errors."""
+    building, settings = state.building(), state.settings()
+    has_errors = compute.prior_mask(building, settings) is not None
+    with st.popover(f"The drawing's errors{' (on)' if has_errors else ''}"):
+        st.caption(
+            "They touch the prior only: the building that the robot drives through "
+            "stays as it is."
+        )
+        options = compute.prior_drawings(building)
+        st.selectbox(
+            TABLE["prior_drawing"].label,
+            options,
+            format_func=CHOICES.__getitem__,
+            help=TABLE["prior_drawing"].help,
+            **state.bind("prior_drawing"),
+        )
+        for name in ERRORS:
+            slider(name)
+        if settings.missing_share or settings.false_share:
+            number("flaw_seed")
+        if has_errors:
+            st.image(
+                compute.errors_picture(building, settings),
+                width="stretch",
+                alt="The walls of the prior over those found in the drawing",
+            )
+            st.caption(ERRORS_LEGEND)
+            st.button("No errors", on_click=state.change, kwargs=NO_ERRORS)
 
 
 def drawing_choice() -> None:

@@ -1,7 +1,7 @@
 """A run: one building, mapped once, for any prior pair."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from occsim import (
     EvidenceLog,
@@ -12,6 +12,7 @@ from occsim import (
     PriorSurface,
     PriorSweep,
     Scores,
+    UpdateRule,
 )
 from occsim.building import Building
 from occsim.io.images import png
@@ -49,6 +50,15 @@ class Run:
     building: Building
     settings: Settings
     mapped: MappingRun
+
+    def under(self, rule: UpdateRule) -> "Run":
+        """The same run under a rule."""
+        return replace(self, settings=replace(self.settings, rule=rule))
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether the prior is made from other walls than those of the drawing."""
+        return self.mapped.prior_mask is not None
 
     @property
     def evidence(self) -> EvidenceLog:

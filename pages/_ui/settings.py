@@ -10,7 +10,15 @@ from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from typing import Any
 
-from occsim import BehindHit, MapSettings, Prior, Region, Sensor, UpdateRule
+from occsim import (
+    BehindHit,
+    DrawingFlaws,
+    MapSettings,
+    Prior,
+    Region,
+    Sensor,
+    UpdateRule,
+)
 from occsim.prior import SOURCE_PAIR
 from occsim.priors import Elitism
 from pages._ui.choices import (
@@ -22,6 +30,7 @@ from pages._ui.choices import (
     Objectives,
     Overlay,
     Picture,
+    PriorDrawing,
     Surface,
 )
 
@@ -41,6 +50,18 @@ class Setting:
 def setting(default: Any, **declared: Any) -> Any:
     """Return a field of `Settings` with its bounds and texts."""
     return field(default=default, metadata={"setting": Setting(**declared)})
+
+
+def flaw(name: str, **declared: Any) -> Any:
+    """Return a field that is a field of `DrawingFlaws`: the library has its bounds."""
+    bounds = DrawingFlaws.bounds(name)
+    return setting(
+        getattr(DrawingFlaws(), name),
+        low=bounds.low,
+        high=bounds.high,
+        step=bounds.step,
+        **declared,
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -140,6 +161,62 @@ class Settings:
         Region.EXPLORED,
         label="Scored region",
         help="Score only cells that some reading has updated, or all cells.",
+    )
+    prior_drawing: PriorDrawing = setting(
+        PriorDrawing.OWN,
+        label="Drawing for the prior",
+        help="Which drawing the prior is made from. The building that the robot "
+        "drives through stays the same.",
+    )
+    thickness_px: int = flaw(
+        "thickness_px",
+        label="Wall thickness",
+        unit="px",
+        help="Thins or thickens the drawing's walls from both sides. What would vanish "
+        "stays as a line of one pixel.",
+    )
+    shift_x_px: int = flaw(
+        "shift_x_px",
+        label="Shift to the right",
+        unit="px",
+        help="The drawing lies this far beside the building.",
+    )
+    shift_y_px: int = flaw(
+        "shift_y_px",
+        label="Shift down",
+        unit="px",
+        help="The drawing lies this far below the building.",
+    )
+    rotation_deg: float = setting(
+        0.0,
+        label="Rotation",
+        unit="degrees",
+        low=round(math.degrees(DrawingFlaws.bounds("rotation_rad").low)),
+        high=round(math.degrees(DrawingFlaws.bounds("rotation_rad").high)),
+        step=0.5,
+        help="The drawing is turned about the middle of the sheet, clockwise.",
+    )
+    drawing_scale: float = flaw(
+        "scale",
+        label="Scale",
+        help="The drawing is larger than the building, about the middle of the sheet.",
+    )
+    missing_share: float = flaw(
+        "missing_share",
+        label="Missing walls",
+        help="Share of the length of the walls that the drawing leaves out, in pieces.",
+    )
+    false_share: float = flaw(
+        "false_share",
+        label="False walls",
+        help="Walls that the building does not have, as a share of the length of its "
+        "walls.",
+    )
+    flaw_seed: int = setting(
+        0,
+        label="Seed of missing and false walls",
+        high=9999,
+        help="Another seed puts them elsewhere.",
     )
     overlay: Overlay = setting(
         Overlay.NONE, label="Overlay", help="What is drawn over the map."
@@ -247,6 +324,20 @@ class Settings:
             sensor=self.sensor,
             wall_share=self.wall_share,
             truth_share=self.truth_share,
+        )
+
+    @property
+    def flaws(self) -> DrawingFlaws:
+        """What the drawing gets wrong; the walls of the prior alone suffer it."""
+        return DrawingFlaws(
+            thickness_px=self.thickness_px,
+            shift_x_px=self.shift_x_px,
+            shift_y_px=self.shift_y_px,
+            rotation_rad=math.radians(self.rotation_deg),
+            scale=self.drawing_scale,
+            missing_share=self.missing_share,
+            false_share=self.false_share,
+            seed=self.flaw_seed,
         )
 
     @property

@@ -3,7 +3,9 @@
 import streamlit as st
 
 from occsim import Prior
+from occsim.prior import PRIOR_SCALE
 from pages._ui import compute
+from pages._ui.settings import TABLE
 from pages._ui.state.chosen import change, settings
 
 
@@ -15,6 +17,16 @@ def pair() -> tuple[float, float]:
 def choose_pair(p_wall: float, p_space: float) -> None:
     """Choose a prior pair; every page shows its map."""
     change(p_wall=p_wall, p_space=p_space, uninformative=False)
+
+
+def nearest_pair(to: Prior) -> tuple[float, float]:
+    """The pair of the sliders whose prior is nearest to one of any scale."""
+    pair = to.p_free_wall / PRIOR_SCALE, to.p_free_space / PRIOR_SCALE
+    bounds = TABLE["p_wall"], TABLE["p_space"]
+    return tuple(
+        round(min(max(value, of.low), of.high), 4)
+        for value, of in zip(pair, bounds, strict=True)
+    )
 
 
 def prior() -> Prior:

@@ -6,6 +6,7 @@ from typing import Any
 
 import streamlit as st
 
+from pages._ui import presets
 from pages._ui.state.chosen import change, choice, choose, settings
 from pages._ui.state.edits import attempt, edit
 from pages._ui.state.pairs import choose_pair
@@ -42,6 +43,19 @@ def bind_choice() -> dict[str, Any]:
 def _take_choice(key: str) -> None:
     if key == renewed("control_choice"):
         attempt(lambda: choose(st.session_state.get(key, "")))
+
+
+def bind_preset() -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a widget to the preset in force."""
+    key = renewed("control_preset")
+    st.session_state[key] = presets.current(settings())
+    return {"key": key, "on_change": _take_preset, "args": (key,)}
+
+
+def _take_preset(key: str) -> None:
+    preset = st.session_state.get(key)
+    if key == renewed("control_preset") and preset is not None:
+        attempt(lambda: change(**presets.PRESETS[preset]))
 
 
 def value(key: str) -> Any:
