@@ -39,7 +39,7 @@ def _controls() -> None:
             controls.toggle("clear_no_hit")
             controls.slider("wall_share")
             controls.slider("truth_share")
-        with st.popover("Your own drawing"):
+        with st.popover("Upload"):
             uploads.panel()
 
 

@@ -5,6 +5,7 @@ from typing import Literal
 
 import streamlit as st
 
+from occsim.building import Building
 from pages._ui import compute, state, words
 from pages._ui import presets as named
 from pages._ui.choices import CHOICES, Preset
@@ -14,7 +15,7 @@ CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
 """Plotly options of every chart: a click selects, and the wheel scrolls the page."""
 NARROW_PX = 165
 """Two sliders of this width stand side by side on a telephone of 390 px."""
-DRAWING_PX = 290
+DRAWING_PX = 250
 
 
 def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
@@ -142,31 +143,44 @@ def drawing_errors() -> None:
     """Draw the group in which the drawing that the prior is made from gets errors."""
     building, settings = state.building(), state.settings()
     has_errors = compute.prior_mask(building, settings) is not None
-    with st.popover(f"The drawing's errors{' (on)' if has_errors else ''}"):
+    with st.popover(f"Drawing's errors{': on' if has_errors else ''}"):
         st.caption(
-            "They touch the prior only: the building that the robot drives through "
-            "stays as it is."
+            "What the drawing gets wrong. It touches the prior only: the building that "
+            "the robot drives through stays as it is."
         )
-        options = compute.prior_drawings(building)
-        st.selectbox(
-            TABLE["prior_drawing"].label,
-            options,
-            format_func=CHOICES.__getitem__,
-            help=TABLE["prior_drawing"].help,
-            **state.bind("prior_drawing"),
-        )
-        for name in ERRORS:
-            slider(name)
-        if settings.missing_share or settings.false_share:
-            number("flaw_seed")
-        if has_errors:
+        left, right = st.columns(2, gap="medium")
+        with left:
+            _prior_drawing(building)
             st.image(
                 compute.errors_picture(building, settings),
                 width="stretch",
                 alt="The walls of the prior over those found in the drawing",
             )
             st.caption(ERRORS_LEGEND)
-            st.button("No errors", on_click=state.change, kwargs=NO_ERRORS)
+            st.button(
+                "No errors",
+                on_click=state.change,
+                kwargs=NO_ERRORS,
+                disabled=not has_errors,
+            )
+        with right:
+            for name in ERRORS:
+                slider(name)
+            if settings.missing_share or settings.false_share:
+                number("flaw_seed")
+
+
+def _prior_drawing(building: Building) -> None:
+    setting = TABLE["prior_drawing"]
+    options = compute.prior_drawings(building)
+    bound = state.bind("prior_drawing", options)
+    st.selectbox(
+        setting.label,
+        options,
+        format_func=CHOICES.__getitem__,
+        help=setting.help,
+        **bound,
+    )
 
 
 def drawing_choice() -> None:

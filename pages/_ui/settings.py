@@ -55,8 +55,9 @@ def setting(default: Any, **declared: Any) -> Any:
 def flaw(name: str, **declared: Any) -> Any:
     """Return a field that is a field of `DrawingFlaws`: the library has its bounds."""
     bounds = DrawingFlaws.bounds(name)
+    default = getattr(DrawingFlaws(), name)
     return setting(
-        getattr(DrawingFlaws(), name),
+        int(default) if bounds.step == int(bounds.step) else default,
         low=bounds.low,
         high=bounds.high,
         step=bounds.step,

@@ -66,7 +66,7 @@ def nudge(page, label, times):
 
 
 def upload(page, label, name, data):
-    page.get_by_text("Your own drawing", exact=True).click()
+    page.get_by_text("Upload", exact=True).click()
     chooser = page.locator("[data-testid=stFileUploader]").filter(has_text=label)
     chooser.locator("input[type=file]").set_input_files(
         {"name": name, "mimeType": "application/octet-stream", "buffer": data}

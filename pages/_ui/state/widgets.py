@@ -1,7 +1,7 @@
 """Widgets tied to the session's state."""
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import streamlit as st
@@ -12,14 +12,16 @@ from pages._ui.state.edits import attempt, edit
 from pages._ui.state.pairs import choose_pair
 
 
-def bind(name: str) -> dict[str, Any]:
+def bind(name: str, options: Sequence[Any] = ()) -> dict[str, Any]:
     """Return ``key`` and ``on_change`` that tie a widget to a setting.
 
     The widget's own value is set from the setting before each run, so that leaving the
-    page, a reset and a share link all show in it.
+    page, a reset and a share link all show in it. Where the setting is none of the
+    `options`, the first of them shows.
     """
     key = renewed(f"control_{name}")
-    st.session_state[key] = getattr(settings(), name)
+    held = getattr(settings(), name)
+    st.session_state[key] = options[0] if options and held not in options else held
     return {"key": key, "on_change": _take, "args": (name, key)}
 
 
