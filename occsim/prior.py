@@ -1,12 +1,19 @@
 """The prior map: what the drawing says before the first reading."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
-from occsim._types import BoolArray, FloatArray, ShortRepr
-from occsim.errors import ParameterError, expect, real_array, real_number
+from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
+from occsim.errors import (
+    ParameterError,
+    bool_array,
+    expect,
+    real_array,
+    real_number,
+)
 from occsim.grid import Grid, cells_of
 from occsim.logodds import logit
 from occsim.world import wall_cells
@@ -179,3 +186,93 @@ def build_prior(
     array([[0.18, 0.81]])
     """
     return prior_from_cells(wall_cells(wall_mask, grid, wall_share), grid, prior)
+
+
+def calibrated_prior(is_wall: BoolArray, truth: BoolArray) -> tuple[float, float]:
+    """Return the prior that states how often the drawing is right.
+
+    Parameters
+    ----------
+    is_wall : ndarray of bool, shape (R, C)
+        Wall cells of the drawing.
+    truth : ndarray of bool, shape (R, C)
+        Cells that are wall in truth.
+
+    Returns
+    -------
+    p_free_wall, p_free_space : float
+        Share of the wall cells, and of the others, that are free in truth, as
+        probabilities for ``Prior(p_wall=..., p_space=..., scale=1.0)``. Laplace's
+        (n + 1) / (N + 2), so that 0 and 1 do not occur; one half for a class without
+        cells.
+
+    Raises
+    ------
+    TypeError
+        Where an array is not bool.
+    ParameterError
+        Where the shapes differ.
+
+    Notes
+    -----
+    It needs no readings. Under PRIOR_ONCE and over all cells its log loss comes close
+    to that of the best pair, `occsim.best_log_loss_pair`.
+
+    Examples
+    --------
+    >>> from occsim import calibrated_prior
+    >>> calibrated_prior([[True, True, False, False]], [[True, True, True, False]])
+    (0.25, 0.5)
+    """
+    return _smoothed(_free_counts(is_wall, truth))
+
+
+def estimated_prior(
+    others: Iterable[tuple[BoolArray, BoolArray]],
+) -> tuple[float, float]:
+    """Return the calibrated prior of other drawings, for one without ground truth.
+
+    Parameters
+    ----------
+    others : iterable of (is_wall, truth)
+        Cells of each, as in `calibrated_prior`; sizes may differ. Leave out the drawing
+        that the prior is for.
+
+    Returns
+    -------
+    p_free_wall, p_free_space : float
+        From the counts of all cells together; one half each without a drawing.
+
+    Raises
+    ------
+    TypeError
+        Where the others are no pairs of arrays of bool.
+    ParameterError
+        Where the shapes of a pair differ.
+
+    Examples
+    --------
+    >>> from occsim import estimated_prior
+    >>> estimated_prior([([[True]], [[True]]), ([[True, True]], [[True, False]])])
+    (0.4, 0.5)
+    """
+    expect("others", others, Iterable)
+    total = np.zeros((2, 2), dtype=np.int64)
+    for pair in others:
+        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+            raise TypeError("others must hold pairs (is_wall, truth) of arrays of bool")
+        total += _free_counts(*pair)
+    return _smoothed(total)
+
+
+def _free_counts(is_wall: BoolArray, truth: BoolArray) -> IntArray:
+    """Return free and all cells of the two classes, wall cells first, (2, 2)."""
+    wall = bool_array("is_wall", is_wall)
+    free = ~bool_array("truth", truth, wall.shape)
+    both = (wall & free).sum(), wall.sum()
+    return np.array([both, (free.sum() - both[0], wall.size - both[1])])
+
+
+def _smoothed(counts: IntArray) -> tuple[float, float]:
+    wall, space = ((int(n) + 1) / (int(of) + 2) for n, of in counts)
+    return wall, space

@@ -176,6 +176,18 @@ BOX = {"low": 0.1, "high": 1.0}
 SEARCH = {"objective": SURFACE, "pop_size": 4, "n_gen": 1, "seed": 0, **BOX}
 SEARCH |= {"elitism": Elitism.FULL, "pareto_fraction": 0.35}
 GOOD = {
+    "best_log_loss_pair": {**CELLS, **CHOICES},
+    "loss_surface": {**CELLS, **CHOICES},
+    "log_loss": {"occupancy_map": MAP, "truth": WALL, "region": Region.ALL},
+    "brier": {"occupancy_map": MAP, "truth": WALL, "region": Region.ALL},
+    "reliability": {
+        "occupancy_map": MAP,
+        "truth": WALL,
+        "region": Region.ALL,
+        "n_bins": 5,
+    },
+    "calibrated_prior": {"is_wall": WALL, "truth": WALL},
+    "estimated_prior": {"others": [(WALL, WALL)]},
     "build_prior": {
         "wall_mask": WALL,
         "grid": GRID,

@@ -11,16 +11,21 @@ from occsim.metrics.counts import (
     score,
 )
 from occsim.metrics.curves import ScoreCurves, scores_by_reading
+from occsim.metrics.proper import Reliability, brier, log_loss, reliability
 
 __all__ = [
     "Region",
+    "Reliability",
     "ScoreCurves",
     "Scores",
+    "brier",
     "coverage",
     "f_beta_of",
+    "log_loss",
     "mean_entropy_bits",
     "precision_of",
     "recall_of",
+    "reliability",
     "score",
     "scores_by_reading",
 ]

@@ -14,6 +14,11 @@ from occsim.priors.front import (
     reference_point,
     set_c,
 )
+from occsim.priors.loss import (
+    LossSurface,
+    best_log_loss_pair,
+    loss_surface,
+)
 from occsim.priors.nsga2 import (
     PARETO_FRACTION,
     Elitism,
@@ -49,6 +54,7 @@ __all__ = [
     "AnyObjective",
     "Elitism",
     "Generation",
+    "LossSurface",
     "Maxima",
     "Objective",
     "ObjectiveFunction",
@@ -56,6 +62,7 @@ __all__ = [
     "PriorSurface",
     "PriorSweep",
     "StepCount",
+    "best_log_loss_pair",
     "dominates",
     "exact_front",
     "exact_objective",
@@ -65,6 +72,7 @@ __all__ = [
     "hypervolume",
     "interpolate",
     "interpolated_objective",
+    "loss_surface",
     "maxima",
     "near_front",
     "non_dominated",

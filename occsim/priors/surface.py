@@ -190,23 +190,45 @@ def prior_surface(
     >>> prior_surface(log, wall, wall).counts([0.5, 0.99, 1.0], 0.5)[0]
     array([1, 1, 0])
     """
-    require_evidence(evidence)
-    is_wall = cells_of("is_wall", is_wall, evidence.grid)
-    truth = cells_of("truth", truth, evidence.grid)
+    groups = scored_groups(evidence, is_wall, truth, rule, region)
     scale = real_number("scale", scale)
     if not 0.0 < scale <= 1.0:
         raise ParameterError(f"scale must lie in (0, 1]; got {scale!r}")
+    wall_hit, wall_free, space_hit, space_free = (sums.size for sums, _ in groups)
+    wall_tp, wall_fp, space_tp, space_fp = (_step_count(*group) for group in groups)
+    n_wall, n_space = wall_hit + space_hit, wall_free + space_free
+    return PriorSurface(wall_tp, wall_fp, space_tp, space_fp, n_wall, n_space, scale)
+
+
+def scored_groups(
+    evidence: Evidence,
+    is_wall: BoolArray,
+    truth: BoolArray,
+    rule: UpdateRule,
+    region: Region,
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Return S and w of ``l = S + w l_0`` for the scored cells, in four groups.
+
+    Parameters
+    ----------
+    evidence, is_wall, truth, rule, region
+        As in `prior_surface`.
+
+    Returns
+    -------
+    list of (sums, weight), each ndarray of float64 of shape (N,)
+        Wall cells of the drawing that are wall in truth, and that are free; other cells
+        that are wall, and that are free.
+    """
+    require_evidence(evidence)
+    is_wall = cells_of("is_wall", is_wall, evidence.grid)
+    truth = cells_of("truth", truth, evidence.grid)
     sums, counts = evidence.totals()
     scored = choice("region", region, Region).scored(counts)
     sums, weight = sums[scored], prior_weight(counts[scored], rule)
     wall, hit = is_wall[scored], truth[scored]
     groups = (wall & hit, wall & ~hit, ~wall & hit, ~wall & ~hit)
-    wall_tp, wall_fp, space_tp, space_fp = (
-        _step_count(sums[g], weight[g]) for g in groups
-    )
-    n_wall = int(np.count_nonzero(hit))
-    n_space = hit.size - n_wall
-    return PriorSurface(wall_tp, wall_fp, space_tp, space_fp, n_wall, n_space, scale)
+    return [(sums[group], weight[group]) for group in groups]
 
 
 def _step_count(sums: FloatArray, weight: FloatArray) -> StepCount:

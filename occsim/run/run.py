@@ -12,57 +12,33 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray
 from occsim.building import Building
-from occsim.errors import ParameterError, bool_array
+from occsim.errors import bool_array
 from occsim.evidence import collect_evidence
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
-from occsim.metrics import Region, ScoreCurves, Scores, score, scores_by_reading
-from occsim.prior import Prior, PriorMap, prior_from_cells
+from occsim.metrics import (
+    Region,
+    ScoreCurves,
+    Scores,
+    log_loss,
+    score,
+    scores_by_reading,
+)
+from occsim.prior import Prior, PriorMap, calibrated_prior, prior_from_cells
 from occsim.priors import (
     SOURCE_AXIS,
+    LossSurface,
     ParetoFront,
     PriorSurface,
     PriorSweep,
+    loss_surface,
     prior_surface,
     surface_front,
     sweep_surface,
 )
-from occsim.sensor import Sensor
+from occsim.run.settings import MapSettings
 from occsim.world import truth_cells, wall_cells
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class MapSettings:
-    """Settings of a mapping run.
-
-    Parameters
-    ----------
-    cell_px : int, default 3
-        Side of a cell, px.
-    sensor : Sensor
-        Range, field of view, and what is said of pixels behind a hit.
-    wall_share, truth_share : float, default 0
-        Share of wall pixels that a cell of the drawing, and of the ground truth, must
-        exceed to be a wall cell, in [0, 1).
-
-    Raises
-    ------
-    ParameterError
-        Where a value lies outside its domain.
-    """
-
-    cell_px: int = 3
-    sensor: Sensor = Sensor()
-    wall_share: float = 0.0
-    truth_share: float = 0.0
-
-    def __post_init__(self) -> None:
-        Grid(height_px=1, width_px=1, cell_px=self.cell_px)
-        for name in ("wall_share", "truth_share"):
-            value = getattr(self, name)
-            if not 0.0 <= value < 1.0:
-                raise ParameterError(f"{name} must lie in [0, 1); got {value!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +133,16 @@ class MappingRun:
         return truth_cells(self.building.world, self.grid, self.settings.truth_share)
 
     @cached_property
+    def calibrated(self) -> tuple[float, float]:
+        """p_free of wall cells and of others; see `occsim.calibrated_prior`."""
+        return calibrated_prior(self.wall_cells, self.truth_cells)
+
+    @cached_property
     def _surfaces(self) -> dict[tuple[UpdateRule, Region], PriorSurface]:
+        return {}
+
+    @cached_property
+    def _loss_surfaces(self) -> dict[tuple[UpdateRule, Region], LossSurface]:
         return {}
 
     @cached_property
@@ -225,6 +210,30 @@ class MappingRun:
         """
         final = self.map(prior, rule, n_readings)
         return score(final, self.truth_cells, region)
+
+    def bits(
+        self,
+        prior: Prior,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.ALL,
+        n_readings: int | None = None,
+    ) -> float:
+        """Return the log loss of the map of a prior; see `occsim.log_loss`.
+
+        Parameters
+        ----------
+        prior, rule, n_readings
+            As in `map`.
+        region : Region, default Region.ALL
+            Which cells count.
+
+        Returns
+        -------
+        float
+            Bits per cell.
+        """
+        final = self.map(prior, rule, n_readings)
+        return log_loss(final, self.truth_cells, region)
 
     def curves(
         self,
@@ -317,3 +326,45 @@ class MappingRun:
         if key not in self._fronts:
             self._fronts[key] = surface_front(self.surface(rule, region), low, high)
         return self._fronts[key]
+
+    def loss_surface(
+        self,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.ALL,
+    ) -> LossSurface:
+        """Return the log loss as a function of the pair; see `occsim.loss_surface`.
+
+        Parameters
+        ----------
+        rule, region
+            As in `bits`.
+
+        Returns
+        -------
+        LossSurface
+            The same object each time.
+        """
+        key = rule, region
+        if key not in self._loss_surfaces:
+            self._loss_surfaces[key] = loss_surface(
+                self.evidence, self.wall_cells, self.truth_cells, rule, region
+            )
+        return self._loss_surfaces[key]
+
+    def best_in_bits(
+        self,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+        region: Region = Region.ALL,
+    ) -> tuple[float, float, float]:
+        """Return the pair of least log loss; see `occsim.best_log_loss_pair`.
+
+        Parameters
+        ----------
+        rule, region
+            As in `bits`.
+
+        Returns
+        -------
+        p_free_wall, p_free_space, bits : float
+        """
+        return self.loss_surface(rule, region).best()
