@@ -1,9 +1,9 @@
-"""Best prior: drawing, walls, evidence, front, recommended pair, prior map."""
+"""Best prior: what the drawing and the readings say, and four answers side by side."""
 
 import streamlit as st
 
 from pages._ui import compute, controls, shell, state
-from pages._ui.priors import guiding
+from pages._ui.priors import answers, guiding, scores
 
 with shell.page("pages/7_Best_prior.py") as lesson:
     shell.heading(lesson)
@@ -11,26 +11,34 @@ with shell.page("pages/7_Best_prior.py") as lesson:
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.slider("min_recall", width=controls.NARROW_PX)
-        controls.segments("handover")
-        controls.select("rule", width=190)
+        controls.drawing_errors()
+        with st.popover("More settings"):
+            for name in ("rule", "behind_hit"):
+                controls.radio(name)
+            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
+                controls.slider(name)
 
     run = compute.run(state.building(), state.settings())
     if run.notice:
         st.warning(run.notice)
-    prior = guiding.handed_over(run)
+    given = answers.all_answers(run)
 
-    first, second, third = st.columns(3, gap="medium")
-    with first:
-        guiding.drawing(run)
-    with second:
-        guiding.walls(run)
-    with third:
-        guiding.evidence(run)
-    fourth, fifth, sixth = st.columns(3, gap="medium")
-    with fourth:
-        guiding.front(run)
-    with fifth:
-        guiding.best_map(run, prior)
-    with sixth:
-        guiding.prior_map(run, prior)
-    guiding.cost(run, prior)
+    steps = (guiding.drawing, guiding.walls, guiding.evidence)
+    columns = st.columns(4, gap="medium")
+    for step, column in zip(steps, columns, strict=False):
+        with column:
+            step(run)
+    with columns[-1]:
+        guiding.front(run, given)
+
+    guiding.head(5, "Which prior is best? It depends on the question")
+    for one, column in zip(given, st.columns(len(given), gap="medium"), strict=True):
+        with column:
+            guiding.answer(run, one)
+    st.markdown(guiding.scores_table(run, given))
+    st.caption(scores.BITS)
+    guiding.head(6, "Does it hold elsewhere?")
+    guiding.transfer(run, given)
+    guiding.head(7, "Hand over the prior map")
+    controls.segments("handover")
+    guiding.hand_over(run, answers.handed_over(given))

@@ -1,6 +1,7 @@
 """The pages on sweeps and fronts: every control once, and cases without a result."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,11 +15,13 @@ from occsim import (
     Scores,
     Trajectory,
     UpdateRule,
+    estimated_prior,
     sample_names,
 )
 from occsim.building import Building
 from occsim.imaging import load_drawing
-from occsim.priors import Elitism, near_front
+from occsim.prior import PRIOR_SCALE
+from occsim.priors import Elitism, near_front, recommend
 from pages._ui import compute, state
 from pages._ui.choices import (
     Drawings,
@@ -30,8 +33,9 @@ from pages._ui.choices import (
     Picture,
     Surface,
 )
-from pages._ui.priors import fronts, guiding, maps, surface_figures, surfaces
+from pages._ui.priors import fronts, maps, surface_figures, surfaces
 from pages._ui.settings import Settings, encode, with_changes
+from pages._ui.words import percent
 from tests.test_pages import ROOT, control, png, said
 
 SWEEP = "pages/5_Sweep_the_priors.py"
@@ -172,28 +176,91 @@ def test_all_drawings_are_compared(axes):
     assert setting(app, "p_space") in surfaces.axis(0.02)
 
 
-@pytest.mark.parametrize("handover", Handover)
+HELPFUL = [one for one in Handover if one is not Handover.SUBTRACT]
+FILES = ["PNG", "NPY", "CSV", "JSON"]
+
+
+def downloads(app):
+    return [button.label for button in app.get("download_button")]
+
+
+@pytest.mark.parametrize("handover", HELPFUL)
 def test_the_path_ends_in_four_files(handover):
     app = open_with(BEST, handover=handover)
-    assert [b.label for b in app.get("download_button")] == [
-        "PNG",
-        "NPY",
-        "CSV",
-        "JSON",
-    ]
+    assert downloads(app) == FILES
     assert "this prior" in texts(app)
 
 
-def test_the_recommended_pair_goes_to_every_page():
-    app = press(open_with(BEST), "Use this pair")
-    run = compute.run(compute.sample(state.OPENING), app.session_state["settings"])
-    best = guiding_pair(run, app.session_state["settings"])
+def test_the_negative_of_a_drawing_is_handed_over_only_after_a_warning():
+    app = open_with(BEST, handover=Handover.SUBTRACT)
+    assert "negative of the drawing" in "\n".join(said(app.warning))
+    assert downloads(app) == []
+    app.checkbox[0].check().run()
+    assert downloads(app) == FILES
+
+
+def best_prior_run(app):
+    return compute.run(compute.sample(state.OPENING), app.session_state["settings"])
+
+
+def test_the_answer_goes_to_every_page():
+    app = press(open_with(BEST, handover=Handover.ONCE), "Use this pair")
+    run = best_prior_run(app)
+    index = recommend(run.front, app.session_state["settings"].min_recall)
+    best = float(run.front.p_wall[index]), float(run.front.p_space[index])
     assert (setting(app, "p_wall"), setting(app, "p_space")) == best
 
 
-def guiding_pair(run, settings):
-    index = guiding.recommend(run.front, settings.min_recall)
-    return float(run.front.p_wall[index]), float(run.front.p_space[index])
+def test_a_prior_beyond_the_sliders_goes_to_their_end():
+    app = open_with(BEST)
+    run = best_prior_run(app)
+    p_free_wall, p_free_space = run.mapped.calibrated
+    assert p_free_space > PRIOR_SCALE
+    app = press(app, "Use this pair")
+    assert setting(app, "p_wall") == pytest.approx(p_free_wall / PRIOR_SCALE, abs=1e-4)
+    assert setting(app, "p_space") == 1.0
+
+
+def test_each_answer_is_scored_under_its_own_rule_beside_the_blank_map():
+    app = open_with(BEST, rule=UpdateRule.SUBTRACT_PRIOR)
+    run = best_prior_run(app)
+    rows = {
+        cells[1]: cells[2:-1]
+        for table in said(app.markdown)
+        if table.startswith("| Map |")
+        for cells in (
+            [cell.strip() for cell in line.replace("\xa0", " ").split("|")]
+            for line in table.splitlines()
+        )
+    }
+    p_free_wall, p_free_space = run.mapped.calibrated
+    calibrated = Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+    once = UpdateRule.PRIOR_ONCE
+    expected = run.mapped.scores(calibrated, once).recall
+    assert rows["Calibrated"][1] == percent(expected)
+    blank = run.mapped.scores(Prior.uninformative())
+    assert rows["No drawing (blank map)"][0] == percent(blank.precision)
+
+
+def test_a_drawing_without_ground_truth_gets_the_estimate_of_the_others():
+    building = replace(compute.sample("d"), truth=None)
+    of = compute.run(building, Settings())
+    others = [
+        compute.reference_run(name, Settings()).mapped for name in ("a", "b", "c", "e")
+    ]
+    expected = estimated_prior([(one.wall_cells, one.truth_cells) for one in others])
+    prior = compute.calibrated(of)
+    assert (prior.p_free_wall, prior.p_free_space) == expected
+
+
+def test_answers_are_tried_on_other_drawings_and_other_tours():
+    of = compute.run(compute.sample("d"), Settings(range_px=20))
+    places = compute.transfer_runs(of)
+    others = {run.building.title for run in places["other drawings"]}
+    assert others == {compute.sample(name).title for name in "abce"}
+    tours = [run.building.trajectory for run in places["other tours"]]
+    assert all(len(tour) <= len(of.building.trajectory) for tour in tours)
+    assert all(run.mapped.truth_cells.any() for run in places["other tours"])
 
 
 def test_the_study_prints_both_tables_and_the_pattern():

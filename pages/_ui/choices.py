@@ -73,7 +73,10 @@ class Objectives(Enum):
 class Handover(Enum):
     """Which answer to "the best prior" is handed over."""
 
-    RECOMMENDED = "recommended"
+    CALIBRATED = "calibrated"
+    BITS = "bits"
+    ONCE = "once"
+    SUBTRACT = "subtract"
     CHOSEN = "chosen"
 
 
@@ -125,7 +128,10 @@ CHOICES: Mapping[Enum, str] = {
     Exploring.ONE: "One front",
     Exploring.SEARCH: "Search by NSGA-II",
     Exploring.ALL: "All drawings",
-    Handover.RECOMMENDED: "Recommended",
+    Handover.CALIBRATED: "Calibrated",
+    Handover.BITS: "Fewest bits",
+    Handover.ONCE: "Best F2, drawing counted once",
+    Handover.SUBTRACT: "Best F2, drawing taken off",
     Handover.CHOSEN: "Chosen by hand",
     FrontAxes.SCORES: "precision, recall",
     FrontAxes.INVERSE: "1/precision, 1/recall",

@@ -15,12 +15,18 @@ from occsim import (
     MapSettings,
     ParameterError,
     Prior,
+    Sensor,
+    Trajectory,
+    UpdateRule,
+    default_tour,
+    estimated_prior,
     flawed_mask,
     load_sample,
     prior_drawing,
+    sample_names,
 )
 from occsim._types import BoolArray, FloatArray
-from occsim.building import Building, building_from_drawing
+from occsim.building import Building, building_from_drawing, random_trajectory
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
@@ -215,6 +221,54 @@ def errors_picture(building: Building, settings: Settings) -> bytes:
     given = own if mask is None else mask
     colours = palette.FREE, palette.MISSED_WALL, palette.FALSE_WALL, palette.HIT
     return class_png(own.astype("uint8") + 2 * given, colours)
+
+
+def calibrated(of: Run) -> Prior:
+    """The calibrated prior; estimated from other drawings where there is no truth."""
+    if of.building.truth is None:
+        return estimated(of)
+    p_free_wall, p_free_space = of.mapped.calibrated
+    return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+
+
+def estimated(of: Run) -> Prior:
+    """The calibrated prior as the reference drawings give it, this one left out."""
+    others = [run.mapped for run in _other_drawings(of)]
+    counted = [(other.wall_cells, other.truth_cells) for other in others]
+    p_free_wall, p_free_space = estimated_prior(counted)
+    return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+
+
+def best_in_bits(of: Run, rule: UpdateRule) -> Prior:
+    """The prior whose final map has the least log loss over all cells."""
+    p_free_wall, p_free_space, _ = of.mapped.best_in_bits(rule)
+    return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+
+
+def transfer_runs(of: Run) -> dict[str, list[Run]]:
+    """This run, the other reference drawings, and other tours of this building."""
+    tours = _other_tours(of.building.digest, of.settings.sensor, of.building)
+    return {
+        "this drawing, this tour": [of],
+        "other drawings": _other_drawings(of),
+        "other tours": [
+            run(replace(of.building, trajectory=tour), of.settings) for tour in tours
+        ],
+    }
+
+
+def _other_drawings(of: Run) -> list[Run]:
+    names = [name for name in sample_names() if name != of.building.name]
+    return [reference_run(name, of.settings) for name in names]
+
+
+@shared("Planning other tours")
+def _other_tours(digest: str, sensor: Sensor, _building: Building) -> list[Trajectory]:
+    """A shorter automatic tour, and as many random poses as the building's tour has."""
+    world, n = _building.world, len(_building.trajectory)
+    with core():
+        short = default_tour(world, sensor, max_readings=max(1, n // 2))
+        return [short, random_trajectory(world, n, seed=0)]
 
 
 def sweep(of: Run, values: Sequence[float]) -> PriorSweep:

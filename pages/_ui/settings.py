@@ -263,10 +263,9 @@ class Settings:
         "which too much of the building is missing.",
     )
     handover: Handover = setting(
-        Handover.RECOMMENDED,
-        label="Prior pair",
-        help="The pair with the highest F2 within set C, or the one chosen by hand on "
-        "this page or another.",
+        Handover.CALIBRATED,
+        label="Answer to hand over",
+        help="Which of the answers above becomes the prior map.",
     )
     tolerance: float = setting(
         0.05,

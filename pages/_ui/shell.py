@@ -90,6 +90,9 @@ CSS = """
 }
 .st-key-current_page a { box-shadow: inset 0 -2px currentColor; }
 .st-key-lessons a:focus-visible { outline: 2px solid currentColor; }
+/* A wide table is swiped by itself; the page stays as wide as the screen. */
+[data-testid="stMarkdownContainer"] table { display: block; overflow-x: auto;
+    width: max-content; max-width: 100%; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */

@@ -1,8 +1,10 @@
-"""The six steps of the page "Best prior", and what a mapping step costs."""
+"""The steps of the page "Best prior", and what a mapping step costs."""
+
+from dataclasses import asdict
 
 import streamlit as st
 
-from occsim import Prior, coverage
+from occsim import Prior, PriorMap, UpdateRule, coverage, log_loss, score
 from occsim.io.images import drawing_png, mask_png
 from occsim.io.prior_map import (
     Plain,
@@ -11,37 +13,21 @@ from occsim.io.prior_map import (
     prior_npy,
     prior_png,
 )
-from occsim.priors import recommend, set_c
-from pages._ui import compute, palette, shell, state, words
-from pages._ui.choices import FrontAxes, Handover, Picture
+from occsim.priors import set_c
+from pages._ui import compute, controls, palette, shell, state, words
+from pages._ui.choices import CHOICES, FrontAxes, Handover, Picture
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import front_figures, maps
+from pages._ui.priors import front_figures, scores
+from pages._ui.priors.answers import Answer, handed_over
 from pages._ui.priors.front_figures import Mark
 from pages._ui.runs import Run
-
-
-def recommended(run: Run) -> Prior | None:
-    """The pair with the highest F2 within set C; None where set C is empty."""
-    index = recommend(run.front, state.settings().min_recall)
-    if index is None:
-        return None
-    pair = run.front.p_wall[index], run.front.p_space[index]
-    return Prior(p_wall=float(pair[0]), p_space=float(pair[1]))
-
-
-def handed_over(run: Run) -> Prior:
-    """The prior that the path recommends, or the one chosen by hand."""
-    best = recommended(run)
-    if state.settings().handover is Handover.CHOSEN or best is None:
-        return state.prior()
-    return best
 
 
 def drawing(run: Run) -> None:
     """Step 1: the architect's drawing."""
     building = run.building
     height, width = building.drawing.shape
-    _head(1, f"Drawing: {words.plain(building.title)}")
+    head(1, f"Drawing: {words.plain(building.title)}")
     st.image(drawing_png(building.drawing), width="stretch", alt="The drawing")
     st.caption(
         f"{width} × {height} px. Choose another above, or upload your own on the "
@@ -52,7 +38,15 @@ def drawing(run: Run) -> None:
 def walls(run: Run) -> None:
     """Step 2: the walls found in it, which the prior is made of."""
     building = run.building
-    _head(2, "Walls found in it")
+    head(2, "Walls of the prior")
+    if run.has_errors:
+        st.image(
+            compute.errors_picture(building, run.settings),
+            width="stretch",
+            alt="The walls of the prior over those found in the drawing",
+        )
+        st.caption(controls.ERRORS_LEGEND)
+        return
     st.image(mask_png(building.wall_mask), width="stretch", alt="The walls found")
     if building.truth is None:
         st.caption("There is no ground truth, so these walls serve as the world too.")
@@ -68,7 +62,7 @@ def walls(run: Run) -> None:
 def evidence(run: Run) -> None:
     """Step 3: what the readings say, shown as the map without a drawing."""
     blank = Prior.uninformative()
-    _head(3, "Evidence of the readings")
+    head(3, "Evidence of the readings")
     st.image(
         run.picture(blank, Picture.BELIEF),
         width="stretch",
@@ -81,12 +75,12 @@ def evidence(run: Run) -> None:
     )
 
 
-def front(run: Run) -> None:
-    """Step 4: the best compromises."""
+def front(run: Run, answers: list[Answer]) -> None:
+    """Step 4: the best compromises of precision and recall."""
     settings = state.settings()
-    _head(4, "Pareto front of all priors")
+    head(4, "Pareto front of all priors")
     figure = front_figures.front_figure(
-        run.front, FrontAxes.SCORES, _marks(run), settings.min_recall
+        run.front, FrontAxes.SCORES, _marks(run, answers), settings.min_recall
     )
     st.plotly_chart(figure, config=CHART_CONFIG, key="path_front")
     n, n_inside = len(run.front), len(set_c(run.front, settings.min_recall))
@@ -96,56 +90,161 @@ def front(run: Run) -> None:
     )
 
 
-def _marks(run: Run) -> list[Mark]:
-    wanted = [
-        ("uninformative", Prior.uninformative(), "square", palette.UNSEEN),
-        ("handed over", handed_over(run), "circle-open", palette.MARK),
-    ]
+def _marks(run: Run, answers: list[Answer]) -> list[Mark]:
+    chosen = handed_over(answers)
+    wanted = [("blank map", Prior.uninformative(), "square", palette.UNSEEN)]
+    if chosen.prior is not None:
+        wanted.append(("handed over", chosen.prior, "circle-open", palette.MARK))
     scored = [(name, run.scores(p), symbol, color) for name, p, symbol, color in wanted]
     return [Mark(n, s.precision, s.recall, symbol, c) for n, s, symbol, c in scored]
 
 
-def best_map(run: Run, prior: Prior) -> None:
-    """Step 5: the pair, and the map that it gives."""
-    is_recommended = prior == recommended(run)
-    _head(5, "Recommended pair" if is_recommended else "Pair chosen by hand")
-    if recommended(run) is None:
-        st.caption("Set C is empty, so no pair can be recommended.")
+def answer(run: Run, given: Answer) -> None:
+    """One answer: its question, its prior, its map, and the scores of the map."""
+    title = CHOICES[given.kind]
+    recommended = given.kind is Handover.CALIBRATED
+    st.markdown(f"**{title}{' (recommended)' if recommended else ''}**")
+    st.caption(given.question)
+    if given.prior is None:
+        st.caption("Set C is empty, so no pair of the front can be recommended.")
+        return
+    under = run.under(given.rule)
     st.image(
-        run.picture(prior, Picture.BELIEF), width="stretch", alt="The map of this pair"
+        under.picture(given.prior, Picture.BELIEF),
+        width="stretch",
+        alt=f"The map of this answer: {title}",
     )
-    pair = maps.pair_text(prior.p_wall, prior.p_space)
-    why = "highest F2 within set C" if is_recommended else "see the explorer"
-    st.caption(words.maths(f"(p_wall, p_space) = {pair}, {why}: {_short(run, prior)}."))
-    maps.against_uninformative(run, prior)
-    if prior.p_wall > prior.p_space:
+    st.markdown(words.maths(prior_text(given.prior)))
+    if is_negative(given.prior):
         st.caption(
-            "Caution: this prior is the negative of the drawing. It gives wall "
-            "cells a higher probability of free than the others. It can win where "
-            "the prior is subtracted at every reading, which pushes a cell away "
-            "from its prior from the second reading on; no map should start from "
-            "it. Compare with *Count the drawing once*."
+            "This prior is the negative of the drawing: it gives wall cells a higher "
+            "probability of free than the others."
         )
-    st.button(
-        "Use this pair on every page",
-        on_click=state.choose_pair,
-        args=(prior.p_wall, prior.p_space),
-        disabled=prior == state.prior(),
+    if given.kind is Handover.CALIBRATED:
+        st.caption(words.maths(_estimate(run)))
+    if given.kind is Handover.CHOSEN:
+        for name in ("p_wall", "p_space"):
+            controls.slider(name)
+
+
+def _estimate(run: Run) -> str:
+    if run.building.truth is None:
+        return (
+            "Estimated from the reference drawings, which have a ground truth; this "
+            "building has none."
+        )
+    return (
+        "Counted in this building's ground truth. Where there is none, the other "
+        f"reference drawings estimate it: {prior_text(compute.estimated(run))}"
     )
 
 
-def prior_map(run: Run, prior: Prior) -> None:
-    """Step 6: the prior map, to download."""
-    made = run.prior_map(prior)
-    _head(6, "Prior map")
-    st.image(prior_png(made), width="stretch", alt="The prior map")
+def scores_table(run: Run, answers: list[Answer]) -> str:
+    """The scores of each answer's map, looked at and not; the blank map's below."""
+    names = ("Precision", "Recall", "F2", "Bits per cell")
+    heads = [f"{name}, {where}" for where in scores.COLUMNS.values() for name in names]
+    lines = [f"| Map | {' | '.join(heads)} |", "|---|" + "---:|" * len(heads)]
+    for title, one in with_blank(answers):
+        found = scores.values(run, one.prior, one.rule)
+        cells = [value for of in found for value in of.shown().values()]
+        lines.append(f"| {title} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def with_blank(answers: list[Answer]) -> list[tuple[str, Answer]]:
+    """The answers that have a prior with their titles, and no drawing as the last."""
+    blank = Answer(Handover.CHOSEN, "", Prior.uninformative(), UpdateRule.PRIOR_ONCE)
+    given = [(CHOICES[one.kind], one) for one in answers if one.prior is not None]
+    return [*given, ("No drawing (blank map)", blank)]
+
+
+def prior_text(prior: Prior) -> str:
+    """The probabilities of free that a prior starts from."""
+    return (
+        f"p_free is {prior.p_free_wall:.3g} on wall cells and "
+        f"{prior.p_free_space:.3g} elsewhere."
+    )
+
+
+def is_negative(prior: Prior) -> bool:
+    """Whether a prior calls wall cells free rather than the others."""
+    return prior.p_wall > prior.p_space
+
+
+@shell.fragment
+def transfer(run: Run, answers: list[Answer]) -> None:
+    """Step 6: each answer on the other drawings, and on other tours."""
+    st.markdown(transfer_table(run, answers))
     st.caption(
-        f"{words.maths('p_free')} is {prior.p_free_wall:.3g} on wall cells and "
-        f"{prior.p_free_space:.3g} "
-        f"elsewhere; {made.grid.n_rows} × {made.grid.n_cols} cells of "
-        f"{made.grid.cell_px} px."
+        "F2 of the cells looked at, and bits per cell over all cells (less is better). "
+        "Other drawings: the mean over the reference drawings except the one shown, "
+        "each with its own walls and tour. Other tours: the mean over an automatic "
+        "tour of half as many readings at most and as many random poses, in this "
+        "building."
     )
-    settings = prior_json(made, prior, run.building.drawing, chosen_on(run, prior))
+
+
+def transfer_table(run: Run, answers: list[Answer]) -> str:
+    """F2 and bits of each answer here, on other drawings and on other tours."""
+    places = compute.transfer_runs(run)
+    heads = " | ".join(places)
+    lines = [f"| | {heads} |", "|---|" + "---:|" * len(places)]
+    for title, one in with_blank(answers):
+        cells = (_mean_scores(runs, one) for runs in places.values())
+        lines.append(f"| {title} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def _mean_scores(runs: list[Run], of: Answer) -> str:
+    """Mean F2 and bits over the runs in which they are defined."""
+    made = [run.mapped.map(of.prior, of.rule) for run in runs]
+    truths = [run.mapped.truth_cells for run in runs]
+    pairs = list(zip(made, truths, strict=True))
+    f2 = _mean([score(final, truth).f2 for final, truth in pairs])
+    bits = _mean([log_loss(final, truth) for final, truth in pairs])
+    return f"{words.percent(f2)}, {scores.bits(bits)} bits"
+
+
+def _mean(values: list[float]) -> float:
+    defined = [value for value in values if value == value]
+    return sum(defined) / len(defined) if defined else float("nan")
+
+
+def hand_over(run: Run, given: Answer) -> None:
+    """Step 7: the prior map, to download; the drawing's negative after a warning."""
+    prior = given.prior or Prior.uninformative()
+    made = run.prior_map(prior)
+    picture, files = st.columns([1, 2], gap="large")
+    with picture:
+        st.image(prior_png(made), width="stretch", alt="The prior map")
+    with files:
+        st.markdown(words.maths(f"**{CHOICES[given.kind]}.** {prior_text(prior)}"))
+        st.caption(
+            f"{made.grid.n_rows} × {made.grid.n_cols} cells of {made.grid.cell_px} px."
+        )
+        if not is_negative(prior) or _is_accepted():
+            _downloads(run, given, made)
+        _use_everywhere(prior)
+        cost(run, prior)
+
+
+def _is_accepted() -> bool:
+    st.warning(
+        "This prior map is the negative of the drawing: walls are called free and "
+        "free space is called wall. It scores well only where the drawing is taken "
+        "off at every reading, which pushes a cell away from its prior from the "
+        "second reading on. A robot that counts the drawing once, as Bayes' rule "
+        "asks, must not start from it."
+    )
+    return st.checkbox(
+        "I know that this map is the negative of the drawing; show the downloads.",
+        **state.bind_view("negative_accepted", False),
+    )
+
+
+def _downloads(run: Run, given: Answer, made: PriorMap) -> None:
+    prior = given.prior or Prior.uninformative()
+    settings = prior_json(made, prior, run.building.drawing, chosen_on(run, given))
     files = {
         "png": (prior_png(made), "image/png"),
         "npy": (prior_npy(made), "application/octet-stream"),
@@ -164,10 +263,23 @@ def prior_map(run: Run, prior: Prior) -> None:
             )
 
 
-def chosen_on(run: Run, prior: Prior) -> dict[str, Plain]:
+def _use_everywhere(prior: Prior) -> None:
+    pair = state.nearest_pair(prior)
+    st.button(
+        "Use this pair on every page",
+        on_click=state.choose_pair,
+        args=pair,
+        disabled=pair == state.pair(),
+        help="The sliders of the other pages set p_free = 0.9 × p and end at p = 1, "
+        f"so this becomes ({pair[0]:g}, {pair[1]:g}) there.",
+    )
+
+
+def chosen_on(run: Run, given: Answer) -> dict[str, Plain]:
     """The conditions under which the pair was chosen, for the settings file."""
-    settings, scores = run.settings, run.scores(prior)
-    best = prior == recommended(run)
+    settings, prior = run.settings, given.prior or Prior.uninformative()
+    found = run.under(given.rule).scores(prior)
+    final = run.mapped.map(prior, given.rule)
     return {
         "building": run.building.title,
         "building_digest": run.building.digest,
@@ -179,14 +291,18 @@ def chosen_on(run: Run, prior: Prior) -> dict[str, Plain]:
         "clear_no_hit": settings.clear_no_hit,
         "wall_share": settings.wall_share,
         "truth_share": settings.truth_share,
-        "update_rule": settings.rule.value,
+        "prior_drawing": settings.prior_drawing.value,
+        "flaws": asdict(settings.flaws),
+        "update_rule": given.rule.value,
         "region": settings.region.value,
-        "chosen_by": "best F2 within set C" if best else "hand",
+        "chosen_by": given.kind.value,
+        "question": given.question,
         "set_c_min_recall": state.settings().min_recall,
-        "n_front_points": len(run.front),
-        "precision": scores.precision,
-        "recall": scores.recall,
-        "f2": scores.f2,
+        "n_front_points": len(run.mapped.front(given.rule)),
+        "precision": found.precision,
+        "recall": found.recall,
+        "f2": found.f2,
+        "bits_per_cell_all_cells": log_loss(final, run.mapped.truth_cells),
     }
 
 
@@ -205,13 +321,14 @@ def cost(run: Run, prior: Prior) -> None:
     )
 
 
-def _head(number: int, title: str) -> None:
+def head(number: int, title: str) -> None:
+    """The heading of a step."""
     st.markdown(f"**{number}. {title}**")
 
 
 def _short(run: Run, prior: Prior) -> str:
-    scores = run.scores(prior)
+    found = run.scores(prior)
     return (
-        f"precision {words.percent(scores.precision)}, recall "
-        f"{words.percent(scores.recall)}, F2 {words.percent(scores.f2)}"
+        f"precision {words.percent(found.precision)}, recall "
+        f"{words.percent(found.recall)}, F2 {words.percent(found.f2)}"
     )
