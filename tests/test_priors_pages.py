@@ -12,12 +12,14 @@ from occsim import (
     Objective,
     Prior,
     Region,
+    Reliability,
     Scores,
     Trajectory,
     UpdateRule,
     estimated_prior,
     sample_names,
 )
+from occsim import reliability as measured
 from occsim.building import Building
 from occsim.imaging import load_drawing
 from occsim.prior import PRIOR_SCALE
@@ -33,7 +35,7 @@ from pages._ui.choices import (
     Picture,
     Surface,
 )
-from pages._ui.priors import fronts, maps, surface_figures, surfaces
+from pages._ui.priors import fronts, maps, reliability, surface_figures, surfaces
 from pages._ui.settings import Settings, encode, with_changes
 from pages._ui.words import percent
 from tests.test_pages import ROOT, control, png, said
@@ -240,6 +242,29 @@ def test_each_answer_is_scored_under_its_own_rule_beside_the_blank_map():
     assert rows["Calibrated"][1] == percent(expected)
     blank = run.mapped.scores(Prior.uninformative())
     assert rows["No drawing (blank map)"][0] == percent(blank.precision)
+
+
+def test_the_reliability_of_the_map_is_drawn_without_empty_bins():
+    """Two cells say 0.8, one of them is free; one says 0.1 and is wall."""
+    nan = float("nan")
+    half = Reliability(
+        edges=np.array([0.0, 0.5, 0.75, 1.0]),
+        mean_p_free=np.array([0.1, nan, 0.8]),
+        share_free=np.array([0.0, nan, 0.5]),
+        count=np.array([1, 0, 2]),
+    )
+    marks = reliability.figure({"one": half, "two": half}).data[1]
+    assert (list(marks.x), list(marks.y)) == ([0.1, 0.8], [0.0, 0.5])
+    assert marks.marker.size[1] == reliability.LARGEST_PX > marks.marker.size[0]
+
+
+def test_the_calibration_error_of_the_map_handed_over_is_said():
+    app = open_with(BEST, handover=Handover.BITS)
+    run = best_prior_run(app)
+    prior = compute.best_in_bits(run, UpdateRule.PRIOR_ONCE)
+    final = run.mapped.map(prior, UpdateRule.PRIOR_ONCE)
+    error = measured(final, run.mapped.truth_cells).expected_calibration_error
+    assert f"Fewest bits {percent(error)}" in texts(app)
 
 
 def test_a_drawing_without_ground_truth_gets_the_estimate_of_the_others():

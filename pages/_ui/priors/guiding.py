@@ -17,7 +17,7 @@ from occsim.priors import set_c
 from pages._ui import compute, controls, palette, shell, state, words
 from pages._ui.choices import CHOICES, FrontAxes, Handover, Picture
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import front_figures, scores
+from pages._ui.priors import front_figures, reliability, scores
 from pages._ui.priors.answers import Answer, handed_over
 from pages._ui.priors.front_figures import Mark
 from pages._ui.runs import Run
@@ -173,7 +173,7 @@ def is_negative(prior: Prior) -> bool:
 
 @shell.fragment
 def transfer(run: Run, answers: list[Answer]) -> None:
-    """Step 6: each answer on the other drawings, and on other tours."""
+    """Step 7: each answer on the other drawings, and on other tours."""
     st.markdown(transfer_table(run, answers))
     st.caption(
         "F2 of the cells looked at, and bits per cell over all cells (less is better). "
@@ -211,10 +211,10 @@ def _mean(values: list[float]) -> float:
 
 
 def hand_over(run: Run, given: Answer) -> None:
-    """Step 7: the prior map, to download; the drawing's negative after a warning."""
+    """Step 6: the prior map, to download; the drawing's negative after a warning."""
     prior = given.prior or Prior.uninformative()
     made = run.prior_map(prior)
-    picture, files = st.columns([1, 2], gap="large")
+    picture, files, honesty = st.columns(3, gap="large")
     with picture:
         st.image(prior_png(made), width="stretch", alt="The prior map")
     with files:
@@ -226,6 +226,9 @@ def hand_over(run: Run, given: Answer) -> None:
             _downloads(run, given, made)
         _use_everywhere(prior)
         cost(run, prior)
+    with honesty:
+        st.markdown("**Does its map mean what it says?**")
+        reliability.diagram(run, given)
 
 
 def _is_accepted() -> bool:
