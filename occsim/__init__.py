@@ -18,6 +18,7 @@ from occsim.io.trajectories import TrajectoryFormat, dump_trajectory, load_traje
 from occsim.logodds import logit, p_free_from_log_odds
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.metrics import (
+    Measure,
     Region,
     Reliability,
     ScoreCurves,
@@ -29,6 +30,7 @@ from occsim.metrics import (
     reliability,
     score,
     scores_by_reading,
+    worth_in_readings,
 )
 from occsim.prior import (
     Prior,
@@ -93,6 +95,7 @@ __all__ = [
     "LossSurface",
     "MapSettings",
     "MappingRun",
+    "Measure",
     "Objective",
     "OccsimError",
     "OccupancyMap",
@@ -163,4 +166,5 @@ __all__ = [
     "surface_front",
     "sweep_priors",
     "truth_cells",
+    "worth_in_readings",
 ]

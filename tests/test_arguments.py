@@ -164,6 +164,7 @@ SWEEP = sweep_priors(LOG, WALL, WALL, [0.1, 1.0], [0.1, 1.0])
 SURFACE = occsim.prior_surface(LOG, WALL, WALL)
 FRONT = exact_front(LOG, WALL, WALL)
 MAP = fuse(LOG, PRIOR_MAP)
+CURVES = scores_by_reading(LOG, PRIOR_MAP, WALL, bits=True)
 ASKED = {
     "world": WORLD,
     "trajectory": Trajectory([[2.5, 2.5, 0.0]]),
@@ -236,6 +237,13 @@ GOOD = {
         "prior_map": PRIOR_MAP,
         "truth": WALL,
         **CHOICES,
+        "bits": True,
+    },
+    "worth_in_readings": {
+        "drawing": CURVES,
+        "blank": CURVES,
+        "n_readings": 1,
+        "measure": occsim.Measure.F2,
     },
     "set_c": {"front": FRONT, "min_recall": 0.4},
     "surface_front": {"surface": SURFACE, **BOX},
@@ -284,6 +292,7 @@ GOOD = {
 WHOLE = {"world", "trajectory", "sensor", "grid", "prior", "prior_map", "evidence"}
 WHOLE |= {"occupancy_map", "sweep", "surface", "front", "sweeps", "fronts"}
 WHOLE |= {"is_wall", "truth", "wall_mask", "mask", "flaws", "building"}
+WHOLE |= {"blank"}
 STRANGE = {
     "nothing": None,
     "a number": 3,

@@ -1,6 +1,7 @@
 """The log loss over prior pairs and its optimum, against fused maps and scipy."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -217,16 +218,25 @@ def losses(name, behind_hit, mask):
     return (run.best_in_bits()[2], *bits)
 
 
-@pytest.mark.parametrize("name", sample_names())
-@pytest.mark.parametrize("behind_hit", BehindHit)
-@pytest.mark.parametrize(
-    "flaws", [{}, {"thickness_px": -2}, {"shift_x_px": 6}], ids=["found", "thin", "off"]
-)
-def test_a_calibrated_prior_is_near_the_best_and_below_the_blank_map(
-    name, behind_hit, flaws
-):
-    """Counted once, over all cells: within 0.06 nats of the best (science.md)."""
-    mask = flawed_mask(load_sample(name).wall_mask, DrawingFlaws(**flaws))
-    best, calibrated, blank = losses(name, behind_hit, mask)
-    assert best <= calibrated <= best + 0.06 / math.log(2)
-    assert calibrated < blank
+def test_a_calibrated_prior_is_near_the_best_and_below_the_blank_map():
+    """Counted once, over all cells, in 30 cases (science.md, "Proper scores").
+
+    Within 0.03 nats of the best in 29 of them and never below the blank map. Found: the
+    exception is c behind-hit unseen, shifted, 0.0313; the blank map has 1.3 to 29 times
+    the bits, and 900 to 2000 times on d, whose walls are found as they are.
+    """
+    gaps, gains = [], []
+    conditions = product(
+        sample_names(), BehindHit, ({}, {"thickness_px": -2}, {"shift_x_px": 6})
+    )
+    for name, behind_hit, flaws in conditions:
+        mask = flawed_mask(load_sample(name).wall_mask, DrawingFlaws(**flaws))
+        best, calibrated, blank = losses(name, behind_hit, mask)
+        gaps.append((calibrated - best) * math.log(2))
+        gains.append(blank / calibrated)
+    gaps.sort()
+    assert len(gaps) == 30
+    assert gaps[0] >= 0.0
+    assert gaps[28] < 0.03
+    assert gaps[29] < 0.04
+    assert min(gains) > 1.3

@@ -9,6 +9,7 @@ from occsim.metrics import (
     Region,
     Scores,
     coverage,
+    log_loss,
     mean_entropy_bits,
     score,
     scores_by_reading,
@@ -168,12 +169,18 @@ def test_curves_equal_fusing_and_scoring_at_every_step(
     handed = evidence if in_parts_of is None else parts_of(evidence, in_parts_of)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("occsim.metrics.curves.ENTRIES_AT_ONCE", at_once)
-        curves = scores_by_reading(handed, prior_map, truth, rule, region)
+        curves = scores_by_reading(
+            handed, prior_map, truth, rule, region, bits=in_parts_of != 1
+        )
+    assert (curves.bits is None) == (in_parts_of == 1)
     assert curves.tp.shape == (evidence.n_readings + 1,)
     for n in range(evidence.n_readings + 1):
         occupancy_map = fuse(evidence, prior_map, rule, n)
         assert curves.at(n) == score(occupancy_map, truth, region)
         assert curves.coverage[n] == coverage(occupancy_map)
+        if curves.bits is not None:
+            expected = log_loss(occupancy_map, truth, region)
+            np.testing.assert_allclose(curves.bits[n], expected, rtol=0, atol=1e-12)
 
 
 def test_ties_survive_a_long_log():

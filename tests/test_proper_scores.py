@@ -85,20 +85,20 @@ def test_a_blank_map_costs_one_bit_and_certainty_nothing_or_all_of_its_log_odds(
 
 
 def test_a_reliability_diagram_by_hand():
-    """Bins of 0.25. p_free 0.1, 0.1 | none | 0.5, 0.6 | 0.75, 1.
+    """Bins of 0.25. p_free 0.1, 0.1, 0.1, 0.1 | none | 0.5, 0.6 | 0.75, 1.
 
-    Free in truth: 1 of 2; 2 of 2; 1 of 2. Gaps 0.4, 0.45, 0.375, two cells each.
+    Free in truth: 1 of 4; 2 of 2; 1 of 2. Gaps 0.15, 0.45, 0.375.
     """
-    p_free = [[0.1, 0.1, 0.5, 0.6, 0.75, 1.0]]
-    seen = map_of(logit(p_free), [[1] * 6])
-    truth = ~np.array([[True, False, True, True, False, True]])
+    p_free = [[0.1, 0.1, 0.1, 0.1, 0.5, 0.6, 0.75, 1.0]]
+    seen = map_of(logit(p_free), [[1] * 8])
+    truth = ~np.array([[True, False, False, False, True, True, False, True]])
     diagram = reliability(seen, truth, n_bins=4)
     np.testing.assert_array_equal(diagram.edges, [0, 0.25, 0.5, 0.75, 1])
-    np.testing.assert_array_equal(diagram.count, [2, 0, 2, 2])
+    np.testing.assert_array_equal(diagram.count, [4, 0, 2, 2])
     np.testing.assert_allclose(diagram.mean_p_free, [0.1, np.nan, 0.55, 0.875])
-    np.testing.assert_allclose(diagram.share_free, [0.5, np.nan, 1.0, 0.5])
+    np.testing.assert_allclose(diagram.share_free, [0.25, np.nan, 1.0, 0.5])
     assert diagram.expected_calibration_error == pytest.approx(
-        (2 * 0.4 + 2 * 0.45 + 2 * 0.375) / 6
+        (4 * 0.15 + 2 * 0.45 + 2 * 0.375) / 8
     )
 
 

@@ -46,11 +46,12 @@ class _Pieces:
         # Never less than the wall is thick: a cut goes through, a copy is a wall.
         least = int(self._depth[tuple(point)])
         half = max(half, least)
-        rows, cols = np.nonzero(left[self.window(point, half)])
-        if rows.size <= most:
+        own = left[self.window(point, half)]
+        if np.count_nonzero(own) <= most:
             return half
         if most <= least:
             return 0
+        rows, cols = np.nonzero(own)
         row, col = np.minimum(point, half)
         steps = np.sort(np.maximum(np.abs(rows - row), np.abs(cols - col)))
         return max(least, int(steps[most - 1]))

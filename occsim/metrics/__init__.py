@@ -12,8 +12,10 @@ from occsim.metrics.counts import (
 )
 from occsim.metrics.curves import ScoreCurves, scores_by_reading
 from occsim.metrics.proper import Reliability, brier, log_loss, reliability
+from occsim.metrics.worth import Measure, worth_in_readings
 
 __all__ = [
+    "Measure",
     "Region",
     "Reliability",
     "ScoreCurves",
@@ -28,4 +30,5 @@ __all__ = [
     "reliability",
     "score",
     "scores_by_reading",
+    "worth_in_readings",
 ]

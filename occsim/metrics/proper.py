@@ -12,7 +12,7 @@ import numpy.typing as npt
 from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
 from occsim.errors import choice, expect, whole_number
 from occsim.grid import cells_of
-from occsim.logodds import logit, p_free_from_log_odds
+from occsim.logodds import logit, p_free_from_log_odds, softplus
 from occsim.mapping import OccupancyMap
 from occsim.metrics.counts import Region, ratio
 
@@ -34,7 +34,7 @@ def surprise_bits(log_odds: npt.ArrayLike, wall: npt.ArrayLike) -> FloatArray:
         7213 bits.
     """
     against = np.where(wall, log_odds, np.negative(log_odds))
-    return np.asarray(np.logaddexp(0.0, against) / np.log(2.0), dtype=np.float64)
+    return np.asarray(softplus(against) / np.log(2.0), dtype=np.float64)
 
 
 def log_loss(

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
 from occsim.evidence_log import Evidence
-from occsim.logodds import logit, p_free_from_log_odds
+from occsim.logodds import logit, p_free_from_log_odds, softplus
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
 from occsim.priors.surface import prior_levels, scored_groups
@@ -46,7 +46,7 @@ class ClassLoss(ShortRepr):
     def nats(self, level: FloatArray) -> FloatArray:
         """Return the summed log loss at levels of l_0, of their shape."""
         against = self.sums + self.weight * level[..., None]
-        return np.asarray(np.logaddexp(0.0, against) @ self.count, dtype=np.float64)
+        return np.asarray(softplus(against) @ self.count, dtype=np.float64)
 
     def slopes(self, level: float) -> tuple[float, float]:
         """Return the first and second derivative at a level of l_0."""

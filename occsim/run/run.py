@@ -12,18 +12,20 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray
 from occsim.building import Building
-from occsim.errors import bool_array
+from occsim.errors import bool_array, choice
 from occsim.evidence import collect_evidence
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.metrics import (
+    Measure,
     Region,
     ScoreCurves,
     Scores,
     log_loss,
     score,
     scores_by_reading,
+    worth_in_readings,
 )
 from occsim.prior import Prior, PriorMap, calibrated_prior, prior_from_cells
 from occsim.priors import (
@@ -146,9 +148,7 @@ class MappingRun:
         return {}
 
     @cached_property
-    def _fronts(
-        self,
-    ) -> dict[tuple[UpdateRule, Region, float, float], ParetoFront]:
+    def _fronts(self) -> dict[tuple[UpdateRule, Region, float, float], ParetoFront]:
         return {}
 
     def prior_map(self, prior: Prior) -> PriorMap:
@@ -208,8 +208,7 @@ class MappingRun:
         -------
         Scores
         """
-        final = self.map(prior, rule, n_readings)
-        return score(final, self.truth_cells, region)
+        return score(self.map(prior, rule, n_readings), self.truth_cells, region)
 
     def bits(
         self,
@@ -222,24 +221,23 @@ class MappingRun:
 
         Parameters
         ----------
-        prior, rule, n_readings
-            As in `map`.
-        region : Region, default Region.ALL
-            Which cells count.
+        prior, rule, region, n_readings
+            As in `scores`.
 
         Returns
         -------
         float
             Bits per cell.
         """
-        final = self.map(prior, rule, n_readings)
-        return log_loss(final, self.truth_cells, region)
+        return log_loss(self.map(prior, rule, n_readings), self.truth_cells, region)
 
     def curves(
         self,
         prior: Prior,
         rule: UpdateRule = UpdateRule.PRIOR_ONCE,
         region: Region = Region.EXPLORED,
+        *,
+        bits: bool = False,
     ) -> ScoreCurves:
         """Return the scores after every reading; see `occsim.scores_by_reading`.
 
@@ -247,13 +245,46 @@ class MappingRun:
         ----------
         prior, rule, region
             As in `scores`.
+        bits : bool, default False
+            Whether the log loss is wanted too.
 
         Returns
         -------
         ScoreCurves
         """
-        start = self.prior_map(prior)
-        return scores_by_reading(self.evidence, start, self.truth_cells, rule, region)
+        start, truth = self.prior_map(prior), self.truth_cells
+        return scores_by_reading(self.evidence, start, truth, rule, region, bits=bits)
+
+    def worth_in_readings(
+        self,
+        prior: Prior,
+        n_readings: int = 0,
+        measure: Measure = Measure.BITS,
+        rule: UpdateRule = UpdateRule.PRIOR_ONCE,
+    ) -> int | None:
+        """Return how many readings a blank map needs to be as good as that of a prior.
+
+        Parameters
+        ----------
+        prior, rule
+            As in `map`.
+        n_readings : int, default 0
+            Readings that the map with the prior has.
+        measure : Measure, default Measure.BITS
+            Bits per cell over all cells, or F2 over the explored ones.
+
+        Returns
+        -------
+        int or None
+            See `occsim.worth_in_readings`.
+        """
+        measure = choice("measure", measure, Measure)
+        region = Region.EXPLORED if measure is Measure.F2 else Region.ALL
+        ours, blank = (
+            self.curves(one, rule, region, bits=True)
+            for one in (prior, Prior.uninformative())
+        )
+        return worth_in_readings(ours, blank, n_readings, measure)
 
     def surface(
         self,
@@ -272,11 +303,9 @@ class MappingRun:
         PriorSurface
             The same object each time.
         """
-        key = rule, region
+        key, cells = (rule, region), (self.wall_cells, self.truth_cells)
         if key not in self._surfaces:
-            self._surfaces[key] = prior_surface(
-                self.evidence, self.wall_cells, self.truth_cells, rule, region
-            )
+            self._surfaces[key] = prior_surface(self.evidence, *cells, *key)
         return self._surfaces[key]
 
     def sweep(
@@ -344,11 +373,9 @@ class MappingRun:
         LossSurface
             The same object each time.
         """
-        key = rule, region
+        key, cells = (rule, region), (self.wall_cells, self.truth_cells)
         if key not in self._loss_surfaces:
-            self._loss_surfaces[key] = loss_surface(
-                self.evidence, self.wall_cells, self.truth_cells, rule, region
-            )
+            self._loss_surfaces[key] = loss_surface(self.evidence, *cells, *key)
         return self._loss_surfaces[key]
 
     def best_in_bits(

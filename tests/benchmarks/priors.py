@@ -7,8 +7,10 @@ import numpy as np
 from occsim import collect_evidence, load_sample, sample_names
 from occsim.mapping import UpdateRule
 from occsim.priors import (
+    best_log_loss_pair,
     exact_front,
     exact_objective,
+    loss_surface,
     nsga2_front,
     reference_point,
     sweep_priors,
@@ -21,6 +23,7 @@ from tests.benchmarks.table import Row, median_ms, timed_row
 CELL_PX = 3
 TENTHS = np.arange(1, 11) / 10
 HUNDRED = np.linspace(0.1, 1.0, 100)
+HUNDREDTHS = np.linspace(0.001, 0.999, 100)
 MIN_SHARE = 0.995
 
 
@@ -49,6 +52,11 @@ def rows() -> Iterator[Row]:
     for rule in UpdateRule:
         ms = slowest(lambda case, rule=rule: exact_front(*case, rule), cases)
         yield timed_row(f"exact front, {rule.value}", ms, 5.0, where)
+    for rule in UpdateRule:
+        ms = slowest(lambda case, rule=rule: best_log_loss_pair(*case, rule), cases)
+        yield timed_row(f"pair of least log loss, {rule.value}", ms, 2.0, where)
+    ms = slowest(lambda case: loss_surface(*case).bits(HUNDREDTHS, HUNDREDTHS), cases)
+    yield timed_row("log loss of 100 x 100 pairs", ms, 5.0, where)
     objective = exact_objective(*cases[0])
     ms = median_ms(lambda: nsga2_front(objective, seed=1), repeats=3)
     yield timed_row("NSGA-II 100 x 100, exact objective", ms, 1200.0, "sample a")

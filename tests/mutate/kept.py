@@ -3,7 +3,14 @@
 from tests.mutate.arithmetic import ARITHMETIC
 from tests.mutate.buildings import BUILDINGS
 from tests.mutate.mutation import Mutation
+from tests.mutate.proper import PROPER
 from tests.mutate.scripts import SCRIPTS
 from tests.mutate.walls import WALLS
 
-MUTATIONS: tuple[Mutation, ...] = (*ARITHMETIC, *BUILDINGS, *SCRIPTS, *WALLS)
+MUTATIONS: tuple[Mutation, ...] = (
+    *ARITHMETIC,
+    *BUILDINGS,
+    *PROPER,
+    *SCRIPTS,
+    *WALLS,
+)
