@@ -26,7 +26,7 @@ from occsim import (
     sample_names,
 )
 from occsim._types import BoolArray, FloatArray
-from occsim.building import Building, building_from_drawing, random_trajectory
+from occsim.building import Building, random_trajectory
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
@@ -58,6 +58,7 @@ from pages._ui.choices import Objectives, PriorDrawing
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
 from pages._ui.shared import shared
+from pages._ui.worker import WORKER
 
 # Thirty students may share two cores: without this limit all simulations would run at
 # once, and each would take as long as all together.
@@ -91,8 +92,7 @@ def with_walls(building: Building) -> Building:
 
 def own_building(drawing: Drawing, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
-    with core():
-        return building_from_drawing(drawing, working_px=working_px)
+    return WORKER.open_drawing(drawing, working_px)
 
 
 def anonymous(building: Building) -> Building:

@@ -18,7 +18,7 @@ from cachetools import LRUCache
 P = ParamSpec("P")
 T = TypeVar("T")
 
-MAX_BYTES = 400_000_000
+MAX_BYTES = 150_000_000
 """Limit of all results together, bytes; the least recently used is dropped first."""
 
 

@@ -20,6 +20,7 @@ from pages._ui.state.chosen import (
     renew_widgets,
     settings,
 )
+from pages._ui.state.packed import Packed
 from pages._ui.state.replay import forget_player
 
 LOG = logging.getLogger(__name__)
@@ -38,8 +39,13 @@ class Snapshot:
     """The parts that an edit can change."""
 
     choice: str
-    own: Building | None
+    own: Building | Packed | None
     settings: Settings
+
+    def packed(self) -> "Snapshot":
+        """The same with the building in compressed form."""
+        own = self.own
+        return replace(self, own=Packed.of(own)) if isinstance(own, Building) else self
 
     def is_as(self, other: "Snapshot") -> bool:
         """Whether nothing differs; parts are compared by identity."""
@@ -59,8 +65,8 @@ class Step:
     tag: str
 
 
-def _are_same(a: Building | None, b: Building | None) -> bool:
-    if a is None or b is None:
+def _are_same(a: Building | Packed | None, b: Building | Packed | None) -> bool:
+    if not isinstance(a, Building) or not isinstance(b, Building):
         return a is b
     return all(
         _is_same_part(getattr(a, one.name), getattr(b, one.name))
@@ -170,13 +176,26 @@ def _edit(action: Callable[[], None], tag: str) -> None:
     if after.is_as(before):
         state.past = past  # what was drawn was taken back on the board itself
         return
-    state.past = _bounded((*past, Step(before, after, tag)))
+    steps = (*past[1 - MAX_PAST :], Step(before, after, tag))
+    state.past = _bounded(tuple(_light(step, after.own) for step in steps))
     state.future = ()
+
+
+def _light(step: Step, now: Building | Packed | None) -> Step:
+    """Pack the buildings of a step whose drawing is no longer on the page."""
+    sides = [
+        side.packed()
+        if isinstance(side.own, Building)
+        and isinstance(now, Building)
+        and side.own.drawing is not now.drawing
+        else side
+        for side in (step.before, step.after)
+    ]
+    return Step(*sides, step.tag)
 
 
 def _bounded(past: tuple[Step, ...]) -> tuple[Step, ...]:
     """Return the newest steps that stay within the bounds; the last one always."""
-    past = past[-MAX_PAST:]
     while len(past) > 1 and size_of(past) > MAX_PAST_BYTES:
         past = past[1:]
     return past
@@ -215,7 +234,9 @@ def redo() -> None:
 def _restore(left: Snapshot, entered: Snapshot) -> None:
     """Go from one side of an edit to the other; parts that it left alone stay."""
     state = st.session_state
-    state.choice, state.own = entered.choice, entered.own
+    own = entered.own
+    state.choice = entered.choice
+    state.own = own.opened() if isinstance(own, Packed) else own
     names = [one.name for one in fields(Settings)]
     changes = {
         name: getattr(entered.settings, name)

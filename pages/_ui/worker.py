@@ -1,0 +1,106 @@
+"""A second process that opens uploaded drawings, so that sliders need not wait.
+
+Python runs one thread at a time: half a second of wall detection and tour planning in
+this process would stop everyone's sliders. `multiprocessing` would import the page of
+the student who asked into the new process, so this is a plain subprocess. It is started
+on first use, works on one drawing after another, and is replaced when it ends.
+
+Only this process talks to it, through pipes: what it unpickles is its own.
+"""
+
+import atexit
+import contextlib
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+from occsim import OccsimError
+from occsim.building import Building, building_from_drawing
+from occsim.imaging import Drawing
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Worker:
+    """One process, and the pipes to it; one caller at a time."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._lock = threading.Lock()
+
+    def open_drawing(self, drawing: Drawing, working_px: int) -> Building:
+        """Return what `building_from_drawing` does.
+
+        Raises
+        ------
+        OccsimError
+            Where the drawing is refused.
+        """
+        with self._lock:
+            try:
+                made = self._exchange((drawing, working_px))
+            except (OSError, EOFError, pickle.UnpicklingError):
+                self.end()
+                made = None
+        if made is None:  # no process can be started, or it was killed
+            return building_from_drawing(drawing, working_px=working_px)
+        if isinstance(made, OccsimError):
+            raise made
+        return made
+
+    def _exchange(self, request: object) -> Any:
+        process: Any = self._process
+        if process is None or process.poll() is not None:
+            self.end()
+            process = self._process = self._started()
+        pickle.dump(request, process.stdin, pickle.HIGHEST_PROTOCOL)
+        process.stdin.flush()
+        return pickle.load(process.stdout)
+
+    def _started(self) -> Any:
+        folders = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
+        return subprocess.Popen(
+            [sys.executable, "-m", "pages._ui.worker"],
+            cwd=ROOT,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=os.environ | {"PYTHONPATH": folders, "OPENBLAS_NUM_THREADS": "1"},
+        )
+
+    def end(self) -> None:
+        """End the process, if there is one."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            for pipe in (process.stdin, process.stdout):
+                with contextlib.suppress(OSError):  # the unwritten rest of a request
+                    pipe.close()
+            process.wait()
+
+
+WORKER = Worker()
+atexit.register(WORKER.end)
+
+
+def main() -> None:
+    """Answer requests until the other process closes the pipe."""
+    requests, replies = sys.stdin.buffer, sys.stdout.buffer
+    while True:
+        try:
+            drawing, working_px = pickle.load(requests)
+        except EOFError:
+            return
+        try:
+            made: object = building_from_drawing(drawing, working_px=working_px)
+        except OccsimError as error:
+            made = error
+        pickle.dump(made, replies, pickle.HIGHEST_PROTOCOL)
+        replies.flush()
+
+
+if __name__ == "__main__":
+    main()
