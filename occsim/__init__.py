@@ -69,6 +69,7 @@ from occsim.priors import (
     surface_front,
     sweep_priors,
 )
+from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.sensor import BehindHit, Sensor
@@ -105,6 +106,7 @@ __all__ = [
     "PriorMap",
     "PriorSurface",
     "PriorSweep",
+    "Reading",
     "Region",
     "Reliability",
     "Sample",
@@ -150,6 +152,7 @@ __all__ = [
     "non_dominated",
     "nsga2_front",
     "nsga2_generations",
+    "one_reading",
     "p_free_from_log_odds",
     "prior_drawing",
     "prior_surface",

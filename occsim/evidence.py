@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import FloatArray, IntArray, Progress
-from occsim.errors import ParameterError, expect
+from occsim.errors import expect
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
-from occsim.grid import Grid
+from occsim.grid import Grid, require_cover
 from occsim.rays.cull import without_hidden
 from occsim.rays.faces import WallFaces, wall_faces
 from occsim.rays.outline import trace_outline
@@ -193,11 +193,7 @@ def stream_evidence(
         ("grid", grid, Grid),
     ):
         expect(name, value, kind)
-    if (grid.height_px, grid.width_px) != world.shape:
-        raise ParameterError(
-            f"grid must cover the world of {world.shape} px; got "
-            f"({grid.height_px}, {grid.width_px}) px"
-        )
+    require_cover(grid, world.shape)
     return _parts(world, trajectory, sensor, grid, on_progress)
 
 

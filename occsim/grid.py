@@ -98,13 +98,32 @@ class Grid:
         ParameterError
             Where it does not have the size of the image.
         """
+        counts = self.count(mask)
+        return np.asarray(counts / self.pixels_per_cell(), dtype=np.float64)
+
+    def count(self, mask: npt.ArrayLike) -> IntArray:
+        """Return the number of true pixels in each cell.
+
+        Parameters
+        ----------
+        mask : array_like of bool, shape (H, W)
+            One flag a pixel.
+
+        Returns
+        -------
+        ndarray of int64, shape (R, C)
+
+        Raises
+        ------
+        TypeError, ParameterError
+            As in `share`.
+        """
         flags = bool_array("mask", mask, (self.height_px, self.width_px))
         row_starts = np.arange(0, self.height_px, self.cell_px)
         col_starts = np.arange(0, self.width_px, self.cell_px)
         # Rows first: int32 sums over contiguous memory, then the few columns.
         rows = np.add.reduceat(flags, row_starts, axis=0, dtype=np.int32)
-        counts = np.add.reduceat(rows, col_starts, axis=1, dtype=np.int64)
-        return np.asarray(counts / self.pixels_per_cell(), dtype=np.float64)
+        return np.add.reduceat(rows, col_starts, axis=1, dtype=np.int64)
 
     def cell_index(self, x_px: npt.ArrayLike, y_px: npt.ArrayLike) -> IntArray:
         """Return the flat row-major index of the cell that holds each point.
@@ -175,3 +194,25 @@ def same_grid(**grids: Grid) -> Grid:
         got = " and ".join(map(str, grids.values()))
         raise ParameterError(f"{names} must lie on the same grid; got {got}")
     return first
+
+
+def require_cover(grid: Grid, shape: tuple[int, ...]) -> None:
+    """Check that a grid lies over a whole world.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    shape : tuple of int
+        Height and width of the world, px.
+
+    Raises
+    ------
+    ParameterError
+        Where it does not.
+    """
+    if (grid.height_px, grid.width_px) != shape:
+        raise ParameterError(
+            f"grid must cover the world of {shape} px; got "
+            f"({grid.height_px}, {grid.width_px}) px"
+        )

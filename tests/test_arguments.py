@@ -225,6 +225,10 @@ GOOD = {
     "non_dominated": {"precision": [0.5], "recall": [0.5]},
     "nsga2_front": SEARCH,
     "nsga2_generations": {**SEARCH, "ref": (5.0, 5.0)},
+    "one_reading": {
+        **{name: ASKED[name] for name in ("world", "sensor", "grid")},
+        "pose": (0.5, 0.5, 0.0),
+    },
     "p_free_from_log_odds": {"log_odds": [0.5]},
     "prior_drawing": {"building": occsim.load_sample("c"), "which": "d"},
     "prior_surface": {**CELLS, **CHOICES, "scale": 0.9},

@@ -24,6 +24,7 @@ ORDER = [
     {"sensor"},
     {"rays", "evidence_log"},
     {"evidence"},
+    {"reading"},
     {"tour"},
     {"mapping"},
     {"metrics"},
