@@ -44,9 +44,10 @@ def flawed_mask(mask: npt.ArrayLike, flaws: DrawingFlaws) -> BoolArray:
     Notes
     -----
     Length is counted along the walls' centre lines. Missing and false walls come in
-    pieces of `PIECE_IN_WALLS` mean thicknesses, the last one shorter. A false piece is
-    a copy of a piece of the drawing, so of its thicknesses and directions, placed where
-    it covers no wall; where the sheet has no room for more, fewer are drawn.
+    pieces of `occsim.flaws.pieces.PIECE_IN_WALLS` mean thicknesses, the last one
+    shorter: squares about points of the centre lines. A false piece is a copy of such a
+    square, so of the drawing's thicknesses and directions, placed where it covers no
+    wall; where the sheet has no room for more, fewer are drawn.
 
     Thinning keeps the number of connected pieces, and beyond the sheet is free.
     Thickening reaches every pixel whose centre is within `thickness_px` of a wall

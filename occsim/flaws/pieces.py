@@ -143,15 +143,17 @@ def _false(
     false, taken = np.zeros_like(walls), walls.copy()
     wanted, fails = round(share * pieces.length), 0
     while wanted > 0 and (half := pieces.half >> fails // _TRIES):
-        point = pieces.points[rng.integers(pieces.length)]
+        which, down, right = rng.random(3).tolist()
+        point = pieces.points[int(which * pieces.length)]
         reach = pieces.reach(point, pieces.centre, wanted, half)
         if reach == 0:
             break
         own = pieces.window(point, reach)
         piece = walls[own]
-        room = np.subtract(walls.shape, piece.shape) + 1
-        row, col = rng.integers(room).tolist()
-        place = slice(row, row + piece.shape[0]), slice(col, col + piece.shape[1])
+        n_rows, n_cols = piece.shape
+        row = int(down * (walls.shape[0] - n_rows + 1))
+        col = int(right * (walls.shape[1] - n_cols + 1))
+        place = slice(row, row + n_rows), slice(col, col + n_cols)
         if (taken[place] & piece).any():
             fails += 1
         else:
