@@ -18,29 +18,28 @@ from occsim import (
     Trajectory,
     UpdateRule,
     __version__,
+    load_sample,
 )
 from occsim.building import Building
 from occsim.cli import main
-from occsim.io.images import mask_png, png
+from occsim.io.images import mask_png
 from occsim.priors import SOURCE_AXIS, Objective, ParetoFront, PriorSweep
 from occsim.study import (
     StudyCase,
     StudySettings,
-    case_path,
     case_settings,
     fronts_csv,
     fronts_figure,
     is_reference,
-    load_case,
     maps_figure,
     maxima_csv,
+    maxima_table,
     maxima_text,
     pattern,
     pattern_text,
+    read_case,
     run_case,
-    save_case,
-    study_cases,
-    study_drawing,
+    study_document,
     sweeps_csv,
 )
 from occsim.study.published import published_maximum
@@ -75,31 +74,7 @@ def case_of(tp, fp, fn, name="x", cell_px=3, is_reference=False):
 
 @pytest.fixture(scope="module")
 def cases():
-    return [step.case for step in study_cases([drawing_of(room())], (5, 10))]
-
-
-def test_a_study_is_every_drawing_at_every_cell_size():
-    drawings = [drawing_of(room(), "one"), drawing_of(room(), "two")]
-    steps = list(study_cases(drawings, (10, 20)))
-    assert [(step.case.name, step.case.cell_px) for step in steps] == [
-        ("one", 10),
-        ("one", 20),
-        ("two", 10),
-        ("two", 20),
-    ]
-    assert [step.done for step in steps] == [1, 2, 3, 4]
-    assert {(step.total, step.is_kept) for step in steps} == {(4, False)}
-    assert steps[0].case.sweep.precision.shape == (10, 10)
-
-
-def test_a_stopped_study_continues(tmp_path):
-    drawing, cells = drawing_of(room()), (5, 10)
-    next(study_cases([drawing], cells, folder=tmp_path))
-    steps = list(study_cases([drawing], cells, folder=tmp_path))
-    assert [step.is_kept for step in steps] == [True, False]
-    changed = StudySettings(rule=UpdateRule.PRIOR_ONCE)
-    steps = list(study_cases([drawing], cells, changed, tmp_path))
-    assert not any(step.is_kept for step in steps)
+    return [run_case(drawing_of(room()), cell_px) for cell_px in (5, 10)]
 
 
 def test_a_case_holds_the_scores_without_a_drawing(cases):
@@ -159,8 +134,10 @@ def test_a_study_without_a_hit_is_reported_as_such(walls, poses):
     assert pattern(found).n_cases == 0
     assert "–" in maxima_text(found)
     assert fronts_csv(found).count("\n") == 1
-    assert "undefined" in maps_figure(found).axes[0].get_title()
-    fronts_figure(found).savefig(io.BytesIO())
+    figure = maps_figure(found)
+    assert "undefined" in figure.axes[0].get_title()
+    for one in (figure, fronts_figure(found)):
+        one.savefig(io.BytesIO())
 
 
 def test_pattern_of_three_cases_by_hand():
@@ -205,7 +182,7 @@ def test_published_maxima_stand_beside_those_of_the_samples():
 
 def test_published_maxima_stand_only_beside_true_samples():
     """An own drawing called "d", and sample d with its walls changed, are others."""
-    sample = study_drawing("d")
+    sample = load_sample("d")
     assert is_reference(sample)
     blank = np.zeros(sample.world.shape, dtype=bool)
     for own in (drawing_of(room(), name="d"), replace(sample, found=blank)):
@@ -232,13 +209,34 @@ def test_csv_files_hold_all_points_and_pairs(cases):
     assert int(pairs[1]["tp"]) == cases[0].sweep.tp[0, 1]
 
 
-def test_a_saved_case_comes_back_as_it_was(tmp_path, cases):
-    drawing, settings = drawing_of(room()), StudySettings()
-    described = case_settings(drawing, 5, settings)
-    path = case_path(tmp_path, described)
-    assert load_case(path, described) is None
-    save_case(path, cases[0], described)
-    again = load_case(path, described)
+def test_tables_come_by_cell_size_and_files_by_case():
+    """As in the source: all drawings at one cell size, then at the next."""
+    names = [("a", 3), ("a", 5), ("b", 3), ("b", 5)]
+    cases = [case_of(3, 1, 1, name=name, cell_px=px) for name, px in names]
+    table = maxima_table(cases, Objective.RECALL)
+    assert [(row[2], row[1]) for row in table] == [
+        ("a", 3),
+        ("b", 3),
+        ("a", 5),
+        ("b", 5),
+    ]
+    rows = list(csv.DictReader(io.StringIO(maxima_csv(cases))))
+    assert [row["objective"] for row in rows] == ["precision", "recall"] * 4
+
+
+def test_a_table_of_own_drawings_has_no_figures_of_the_source():
+    own = maxima_text([case_of(3, 1, 1, name="a")])
+    assert "published" not in own
+    assert "Table" not in own
+    both = [case_of(3, 1, 1, name="d", is_reference=True), case_of(3, 1, 1)]
+    assert "95.56" in maxima_text(both)
+
+
+def test_a_case_comes_back_from_its_document_as_it_was(cases):
+    document = json.loads(
+        json.dumps(study_document(drawing_of(room()), 5, StudySettings()))
+    )
+    again = read_case(document | {"cell_px": 5})
     for name in ("p_wall", "p_space", "tp", "fp", "fn", "tn"):
         np.testing.assert_array_equal(
             getattr(again.sweep, name), getattr(cases[0].sweep, name)
@@ -247,46 +245,14 @@ def test_a_saved_case_comes_back_as_it_was(tmp_path, cases):
         np.testing.assert_array_equal(
             getattr(again.front, name), getattr(cases[0].front, name)
         )
-    document = json.loads(path.read_text(encoding="utf-8"))
-    assert set(document["software"]) == {"occsim", "numpy", "opencv"}
-    assert document["settings"]["rule"] == "subtract_prior"
+    assert (again.name, again.cell_px, again.blank) == ("room", 5, cases[0].blank)
     assert document["sensor"]["range_px"] == 40.0
 
 
-def test_other_settings_are_another_file(tmp_path):
-    drawing = drawing_of(room())
-    moved = drawing_of(room(), poses=((30, 31, 0.0),))
-    reach = replace(drawing, sensor=replace(drawing.sensor, range_px=41.0))
-    once = StudySettings(rule=UpdateRule.PRIOR_ONCE)
-    paths = {
-        case_path(tmp_path, case_settings(*case))
-        for case in (
-            (drawing, 5, StudySettings()),
-            (drawing, 6, StudySettings()),
-            (drawing, 5, once),
-            (moved, 5, StudySettings()),
-            (reach, 5, StudySettings()),
-        )
-    }
-    assert len(paths) == 5
-
-
-def test_a_name_cannot_lead_out_of_the_folder(tmp_path):
-    drawing = drawing_of(room(), name="../../etc/passwd")
-    path = case_path(tmp_path, case_settings(drawing, 5, StudySettings()))
-    assert path.parent == tmp_path
-
-
-@pytest.mark.parametrize("damage", ["", "{", "[]", '{"format": "other"}', "cut"])
-def test_a_damaged_case_is_computed_again(tmp_path, cases, damage):
+def test_settings_are_described_with_the_versions():
     described = case_settings(drawing_of(room()), 5, StudySettings())
-    path = case_path(tmp_path, described)
-    save_case(path, cases[0], described)
-    content = path.read_text(encoding="utf-8")
-    path.write_text(
-        content[: len(content) // 2] if damage == "cut" else damage, encoding="utf-8"
-    )
-    assert load_case(path, described) is None
+    assert set(described["software"]) == {"occsim", "numpy", "opencv"}
+    assert described["settings"]["rule"] == "subtract_prior"
 
 
 def lines_of(ax):
@@ -337,6 +303,12 @@ def test_fronts_are_drawn_with_the_source_and_without_a_drawing():
     assert ax.get_ylabel().startswith("1/recall")
 
 
+def test_a_long_name_leaves_room_for_the_figure():
+    case = case_of(3, 1, 2, name="folder/" * 12 + "plan")
+    for figure in (maps_figure([case]), fronts_figure([case])):
+        figure.savefig(io.BytesIO())
+
+
 def test_the_border_of_a_front_turns_where_both_scores_are_worse():
     """Of (1/precision, 1/recall) = (1, 2) and (2, 1): by way of (2, 2)."""
     case = case_of(1, 1, 1)
@@ -359,6 +331,7 @@ def test_without_matplotlib_the_command_writes_tables_and_says_so(
         monkeypatch.setitem(sys.modules, name, None)
     assert main(["study", "d", "--cells", "50", "--out", str(tmp_path)]) == 0
     assert capsys.readouterr().err == (
+        "[1/1] d, 50 px: computed\n"
         "occsim: no figures: a figure needs matplotlib: pip install 'occsim[study]'\n"
     )
     assert (tmp_path / "maxima.csv").is_file()
@@ -386,24 +359,25 @@ def test_the_command_writes_resumes_and_says_so(tmp_path, capsys):
     image.write_bytes(mask_png(room((120, 160))))
     command = ["study", str(image), "--cells", "20", "10", "--out", str(tmp_path / "o")]
     assert main(command) == 0
-    first = capsys.readouterr().out
-    assert first.count("computed") == 2
-    assert "Maximum precision (Table 4.1)" in first
+    first = capsys.readouterr()
+    assert first.err.count("computed") == 2
+    assert "Maximum precision\n" in first.out
+    assert "1 of 1 drawings gave a result" in first.out
     written = {path.name for path in (tmp_path / "o").iterdir()}
     assert {"maxima.csv", "fronts.csv", "sweeps.csv", "pattern.txt"} < written
     assert {"maps_10px.png", "fronts_20px.png"} < written
     next((tmp_path / "o" / "cases").glob("*_10px_*.json")).unlink()
     assert main(command) == 0
-    second = capsys.readouterr().out
-    assert (second.count("computed"), second.count("kept")) == (1, 1)
-    assert second.split("\n\n", 1)[1] == first.split("\n\n", 1)[1]
+    second = capsys.readouterr()
+    assert (second.err.count("computed"), second.err.count("kept")) == (1, 1)
+    assert second.out == first.out
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["no such drawing"], "a drawing is a sample .* got 'no such drawing'"),
-        (["a", "--cells", "0"], "--cells must be 1 px or more; got 0"),
+        (["a", "--cells", "0"], "--cell must be 1 px or more; got 0"),
         (
             ["a", "--cells", "9" * 20],
             "cell_px must be a whole number, 1 to 2,147,483,647; got 9",
@@ -436,24 +410,15 @@ def test_a_reader_that_goes_away_ends_the_command_quietly(tmp_path):
         stderr=subprocess.PIPE,
     )
     os.close(writer)
-    assert ended.stderr == b""
+    assert ended.stderr == b"[1/1] a, 100 px: computed\n"
     assert ended.returncode == 128 + 13  # as of a command ended by SIGPIPE
 
 
-def test_an_image_that_is_none_and_two_of_one_name_are_refused(tmp_path, capsys):
+def test_a_study_of_no_usable_drawing_ends_with_the_reason(tmp_path, capsys):
     bad = tmp_path / "bad.png"
     bad.write_bytes(b"no image")
     assert main(["study", str(bad), "--out", str(tmp_path / "o")]) == 2
-    (tmp_path / "sub").mkdir()
-    twins = [tmp_path / "hall.png", tmp_path / "sub" / "hall.png"]
-    for path in twins:
-        path.write_bytes(png(np.where(room((120, 160)), 0, 255).astype(np.uint8)))
-    assert main(["study", *map(str, twins), "--out", str(tmp_path / "o")]) == 2
-    assert "must differ in name; got hall more than once" in capsys.readouterr().err
-
-
-def test_a_sample_has_its_own_sensor():
-    assert study_drawing("a", Sensor(range_px=7.0)).sensor.range_px != 7.0
+    assert re.search(r"\noccsim: bad.png is .*, not an image", capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,8 @@ WORST = 4.0
 """Largest 1/precision and 1/recall in a plot of fronts. Recalls near 0 would stretch
 the axis until the rest is one point."""
 DPI = 120
+LONGEST_NAME = 48
+"""Characters of a drawing's name and cell size: a longer legend leaves no room."""
 
 # Okabe and Ito's colours: distinguishable with all common colour vision deficiencies.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
@@ -146,10 +148,11 @@ def _draw_map(ax: Axes, case: StudyCase, objective: Objective) -> None:
     rings = ax.plot(best.p_wall, best.p_space, "wo", mec="k", label="largest values")
     dots = ax.plot(front.p_wall, front.p_space, "k.", label="exact front")
     for line in rings + dots:
-        line.set_clip_on(False)
+        # The box of an unclipped line without points has no size: no layout fits it.
+        line.set_clip_on(np.size(line.get_xdata()) == 0)
     ax.plot(*SOURCE_PAIR, color=_COLOURS[1], label=_SOURCE, **_STAR)
     top = "undefined" if np.isnan(best.value) else f"up to {100 * best.value:.1f} %"
-    ax.set_title(_plain(f"{case.name}, {case.cell_px} px cells: {top}"), fontsize=10)
+    ax.set_title(f"{_plain(case.name)}, {case.cell_px} px cells: {top}", fontsize=10)
     ax.set(xlabel=r"$p_\mathrm{wall}$", ylabel=r"$p_\mathrm{space}$")
 
 
@@ -233,4 +236,5 @@ def _percent(value: Any) -> Any:
 
 def _plain(text: str) -> str:
     # Escape file names: matplotlib would read text between dollar signs as mathematics.
-    return text.replace("$", r"\$")
+    shown = text if len(text) <= LONGEST_NAME else f"...{text[3 - LONGEST_NAME :]}"
+    return shown.replace("$", r"\$")

@@ -3,13 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 
-from occsim.building import Building, building_from_drawing
+from occsim.building import Building
 from occsim.errors import ParameterError, choice
-from occsim.imaging import load_drawing
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region, Scores
 from occsim.prior import Prior
@@ -25,7 +23,7 @@ from occsim.priors import (
 )
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import load_sample, sample_names
-from occsim.sensor import BehindHit, Sensor
+from occsim.sensor import BehindHit
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -162,42 +160,6 @@ LOW_SPACE = 0.5
 """Largest p_space that counts as low in `Pattern`."""
 
 
-def study_drawing(source: str, sensor: Sensor | None = None) -> Building:
-    """Return a sample by name, or a drawing from an image file.
-
-    Parameters
-    ----------
-    source : str
-        Name of a sample, or path of an image. An image's walls are detected and serve
-        as the world; a default tour is its trajectory.
-    sensor : Sensor, optional
-        For an image; a sample has its own.
-
-    Returns
-    -------
-    Building
-
-    Raises
-    ------
-    DrawingError
-        Where the image cannot be used.
-    TrajectoryError
-        Where its walls leave no room to drive in.
-    ParameterError
-        Where there is neither such a sample nor such a file.
-    """
-    if source in sample_names():
-        return load_sample(source)
-    path = Path(source)
-    if not path.is_file():
-        raise ParameterError(
-            f"a drawing is a sample ({', '.join(sample_names())}) or an image file; "
-            f"got {source!r}"
-        )
-    sensor = sensor or Sensor()
-    return building_from_drawing(load_drawing(path, name=path.stem), sensor)
-
-
 def is_reference(building: Building) -> bool:
     """Return whether this is an unchanged sample, not only a building of that name.
 
@@ -279,16 +241,12 @@ def pattern(cases: Iterable[StudyCase]) -> Pattern:
     -------
     Pattern
     """
-    defined = [
-        case for case in cases if not np.isnan(case.precision.value + case.recall.value)
-    ]
-    full = [case.recall.p_space == 1.0 for case in defined]
-    low = [case.precision.p_space <= LOW_SPACE for case in defined]
-    return Pattern(
-        n_cases=len(defined),
-        recall_at_full_space=sum(bool(ties.any()) for ties in full),
-        precision_at_low_space=sum(bool(ties.any()) for ties in low),
-        conflicts=sum(case.conflict for case in defined),
-        recall_only_at_full_space=sum(bool(ties.all()) for ties in full),
-        precision_only_at_low_space=sum(bool(ties.all()) for ties in low),
-    )
+    found = np.zeros(6, dtype=np.int64)
+    for case in cases:
+        if np.isnan(case.precision.value + case.recall.value):
+            continue
+        full = case.recall.p_space == 1.0
+        low = case.precision.p_space <= LOW_SPACE
+        ties = full.any(), low.any(), case.conflict, full.all(), low.all()
+        found += np.array((True, *ties))
+    return Pattern(*found.tolist())

@@ -15,7 +15,7 @@ from occsim.priors import (
     reference_point,
     sweep_priors,
 )
-from occsim.study import study_cases, study_drawing
+from occsim.study import run_case
 from occsim.study.published import SOURCE_CELLS_PX
 from occsim.world import truth_cells, wall_cells
 from tests.benchmarks.table import Row, median_ms, timed_row
@@ -67,7 +67,9 @@ def rows() -> Iterator[Row]:
 
 def study_of_samples() -> None:
     """All cases of the command ``occsim study``; the samples' walls are known."""
-    list(study_cases(map(study_drawing, sample_names()), SOURCE_CELLS_PX))
+    for name in sample_names():
+        for cell_px in SOURCE_CELLS_PX:
+            run_case(load_sample(name), cell_px)
 
 
 def share_rows(cases) -> Iterator[Row]:

@@ -13,7 +13,7 @@ from occsim.study import (
     case_settings,
     fronts_csv,
     maxima_csv,
-    maxima_rows,
+    maxima_table,
     pattern_text,
     sweeps_csv,
 )
@@ -93,10 +93,9 @@ def findings(cases: list[StudyCase]) -> None:
 
 def tables(cases: list[StudyCase]) -> None:
     """Tables 4.1 and 4.2, ours beside the published ones."""
-    rows = maxima_rows(cases)
     for column, objective in zip(st.columns(2, gap="large"), Objective, strict=True):
-        chosen = [row[1:] for row in rows if row[0] == objective.value]
-        columns = zip(*chosen, strict=True)
+        rows = maxima_table(cases, objective)
+        columns = zip(*(row[1:] for row in rows), strict=True)
         data = {
             title: [_shown(value) for value in values]
             for title, values in zip(COLUMNS.values(), columns, strict=True)
