@@ -254,6 +254,61 @@ def eaves(gap_px: int) -> Pair:
     return sheet, wall
 
 
+CAD_LINE_PX, CAD_WALL_PX, FLAT_PX = 3, 13, 540
+"""Lines, walls and flats of `cad_floor` at its full size, px."""
+
+
+def cad_walls() -> np.ndarray:
+    """Flats on both sides of a corridor, (1400, 3000) bool."""
+    shape, px = (1400, 3000), CAD_WALL_PX
+    wall = boxes(shape, *ring(150, 150, 2850, 1250, px))
+    for y in (600, 780):
+        wall |= boxes(shape, (150, y, 2850, y + px))
+    for x in range(690, 2800, FLAT_PX):
+        wall |= boxes(shape, (x, 150, x + px, 600 + px), (x, 780, x + px, 1250))
+    for x in range(230, 2800, FLAT_PX):
+        for y in (600, 780):
+            wall[y : y + px, x : x + 100] = False
+    return wall
+
+
+def draw_flat(sheet: np.ndarray, left: int) -> None:
+    """An axis in the wall, cupboards that touch it, a kitchen, tiles, a bed, words."""
+    middle, line = left + FLAT_PX + CAD_WALL_PX // 2, CAD_LINE_PX
+    for y in range(170, 580, 44):
+        cv2.line(sheet, (middle, y), (middle, y + 26), 1, 2)
+    for k in range(3):
+        x = left + 200 + 110 * k
+        cv2.rectangle(sheet, (x, 520), (x + 100, 596), 1, line)
+        for y in range(530, 590, 10):
+            cv2.line(sheet, (x + 8, y), (x + 92, y), 1, 2)
+    for k in range(0, 281, 28):
+        cv2.line(sheet, (left + 200, 840 + k), (left + 480, 840 + k), 1, 2)
+        cv2.line(sheet, (left + 200 + k, 840), (left + 200 + k, 1120), 1, 2)
+    cv2.rectangle(sheet, (left + 60, 200), (left + 240, 400), 1, line)
+    font = cv2.FONT_HERSHEY_SIMPLEX
+    for k in range(4):
+        place = left + 280, 260 + 40 * k
+        cv2.putText(sheet, f"{left + k} - {left + 9}", place, font, 1.2, 1, line)
+
+
+def cad_floor(factor: float) -> Pair:
+    """A drafted floor reduced by a factor."""
+    wall = cad_walls()
+    sheet = faces(wall, CAD_LINE_PX).astype(np.uint8)
+    for left in range(150, 2800, FLAT_PX):
+        draw_flat(sheet, left)
+    return reduced(black_on(sheet > 0), wall, factor)
+
+
+def reduced(sheet: np.ndarray, wall: np.ndarray, factor: float) -> Pair:
+    """A drawing and its walls at a smaller size."""
+    size = round(sheet.shape[1] * factor), round(sheet.shape[0] * factor)
+    area = cv2.INTER_AREA
+    true = cv2.resize(wall.astype(np.uint8) * 255, size, interpolation=area)
+    return cv2.resize(sheet, size, interpolation=area), true > 127
+
+
 KINDS: dict[str, Callable[[], Pair]] = {
     "two rooms filled orange": lambda: filled_rooms((255, 200, 60)),
     "two rooms filled cream": lambda: filled_rooms((248, 226, 165)),
@@ -315,6 +370,15 @@ def test_another_resolution_gives_the_same_walls(kind, factor):
     true = cv2.resize(truth.astype(np.uint8) * 255, size, interpolation=cv2.INTER_AREA)
     found = detect_walls(Drawing(rgb=scaled)).mask
     assert compare_masks(found, true > 127).f1 >= 0.97
+
+
+@pytest.mark.parametrize("factor", [0.33, 0.37, 0.42, 0.5, 0.62])
+def test_hollow_walls_with_axes_and_kitchens_are_found_at_any_size(factor):
+    """Recall asked of a drafted floor; its lines are 1 to 2 px thick here."""
+    sheet, truth = cad_floor(factor)
+    compared = compare_masks(detect_walls(Drawing(rgb=sheet)).mask, truth)
+    assert compared.recall >= 0.97
+    assert compared.f1 >= 0.9
 
 
 def test_a_large_sheet_takes_little_memory_and_its_pictures_are_small():

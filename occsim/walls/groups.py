@@ -90,9 +90,8 @@ def _facing(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
         like_wall = side >= LIKE_WALL[0] * m.wall
         like_wall &= (side <= LIKE_WALL[1] * m.wall) & (parts.height <= m.wall)
         part = parts.labels[edge, column]
-        these = like_wall[part]
+        these = like_wall[part] & (bottom - top >= NARROWEST * m.wall)
         mask |= filled(walls.shape, top[these], bottom[these], column[these])
         _, first = np.unique(part[these], return_index=True)
         widths += (bottom - top)[these][first].tolist()
-    least = NARROWEST * m.wall
-    return mask, [width for width in widths if width >= least]
+    return mask, widths

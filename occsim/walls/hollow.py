@@ -177,7 +177,9 @@ def _joined(
     near |= _grown(crossing, s, along=line) | _grown(crossing, s, across=line)
     reached = _touched(s, near) > 0
     # What stands in the corner of a room may hide where a long wall meets another.
-    reached |= _long(s, m) & (_touched(s, _grown(crossing, s, along=joint)) > 0)
+    reached |= _long(s, m) & (
+        _touched(s, _grown(crossing, s, along=joint, across=line)) > 0
+    )
     return joined & reached
 
 
@@ -209,6 +211,10 @@ def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
             # What holds lines and has no room beside it is a stair or a shelf.
             fits = rooms >= max(least, min(lines, 1))
             masks[least] |= filled(view.shape, top[fits], bottom[fits], column[fits])
+    if not m.thick:
+        for holes in (0, 1, 2):
+            thick = filled(view.shape, *_run_together(runs, m, holes))
+            masks = [mask | thick for mask in masks]
     masks[0] = closed(masks[0], box(2 * m.line + 1, 1))
     if upright:
         masks = [flipped(mask) for mask in masks]
@@ -234,8 +240,11 @@ def _pairs(
     first = np.flatnonzero(runs.value[1 : -step - 1] == 1) + 1
     last = first + step
     whole = (runs.column[first] == runs.column[last]) & (runs.value[last] == 1)
-    for line in range(0, step + 1, 2):
-        whole &= runs.length[first + line] <= 3 * m.line
+    thin = runs.length <= 3 * m.line
+    # Furniture that stands against a wall hides one of its faces, not both.
+    whole &= (thin[first] & thin[last]) if lines_between else thin[first] | thin[last]
+    for line in range(2, step, 2):
+        whole &= runs.length[first + line] <= 2 * m.line
     first, last = first[whole], last[whole]
     top = runs.start[first] + runs.length[first]
     bottom = runs.start[last]
@@ -250,6 +259,27 @@ def _pairs(
         roomy = runs.length[beyond] >= ROOM * widest + m.line
         rooms += roomy | (runs.value[beyond] != 0)
     return top, bottom, runs.column[first], rooms
+
+
+def _run_together(
+    runs: Runs, m: Measures, holes: int
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Return where ink with small holes is as thick as a wall, with room on both sides.
+
+    Small drawings have such walls, and those with an axis or a fill between the faces.
+    """
+    first = np.flatnonzero(runs.value[1 : -2 * holes - 1] == 1) + 1
+    last = first + 2 * holes
+    thick = runs.start[last] + runs.length[last] - runs.start[first]
+    fits = _one_of(thick, (round(m.wall),)) & (runs.value[last] == 1)
+    fits &= runs.column[first] == runs.column[last]
+    for beyond in (first - 1, last + 1):
+        fits &= runs.length[beyond] >= ROOM * thick
+    for hole in range(1, 2 * holes, 2):
+        fits &= runs.length[first + hole] <= m.line
+    top = (runs.start[first] + m.line)[fits]
+    bottom = np.maximum(top + 1, top + thick[fits] - 2 * m.line)
+    return top, bottom, runs.column[first[fits]]
 
 
 def _one_of(lengths: IntArray | FloatArray, usual: tuple[int, ...]) -> BoolArray:

@@ -34,10 +34,8 @@ ROOM = 1.5
 """Least room beyond a hollow wall's faces, in its own gap: treads and tiles have 1."""
 
 HOLLOW_SHARE = 0.2
-"""Area of hollow walls, as a share of all ink, from which a drawing has them."""
-
-ALIKE = 0.8
-"""Share of the ink in strokes of one thickness for all strokes to be alike."""
+"""Area of hollow walls, as a share of the ink in lines, from which a drawing has them:
+where all strokes are alike, these may be walls, with a narrow room here and there."""
 
 NARROWEST_GAP = 0.8
 """Narrowest gap between the faces of a wall, in lines."""
@@ -209,6 +207,7 @@ def gap_lengths(ink: ByteArray, length_px: float, line_px: int) -> FloatArray:
         for side in (-1, 1):
             gap = gap[runs.value[gap + side] == 1]
             gap = gap[runs.length[gap + side] <= 3 * line_px]
+            gap = gap[runs.length[gap + side] >= line_px / 2]
             beyond = gap + 2 * side
             room = runs.length[beyond] >= ROOM * runs.length[gap] + line_px
             gap = gap[room | (runs.value[beyond] != 0)]
@@ -267,7 +266,8 @@ def measure(ink: ByteArray) -> Measures:
         not least or _long_solid(ink, line) >= least
     ):
         return _of_solid(lengths, thick, hollow, line)
-    if _are_walls(between, area, line):
+    alike = area[round(0.8 * line) : round(1.2 * line) + 1].sum()
+    if between.sum() >= HOLLOW_SHARE * alike:
         wall = half_way(between) + 2 * line
         return _of(line, round(BLOT * line), wall, hollow)
     wall = half_way(area)
@@ -294,17 +294,6 @@ def _likely_gaps(ink: ByteArray, line: int) -> FloatArray:
     hollow = gap_lengths(ink, LONG_SHARE * max(ink.shape), line)
     hollow[: max(round(NARROWEST_GAP * line), 2)] = 0.0
     return hollow if kinds_share(hollow) >= KINDS_SHARE else np.zeros_like(hollow)
-
-
-def _are_walls(between: FloatArray, area: FloatArray, line: int) -> bool:
-    """Whether hollow walls of these areas make a drawing of these strokes.
-
-    Where all strokes are alike they may be walls themselves, and what lies between
-    them narrow rooms; only wide gaps tell.
-    """
-    like = area[round(0.8 * line) : round(1.2 * line) + 1]
-    least = 2 * line if like.sum() >= ALIKE * area.sum() else 0
-    return bool(between[least:].sum() >= HOLLOW_SHARE * area.sum())
 
 
 def _of_solid(
