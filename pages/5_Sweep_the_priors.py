@@ -12,11 +12,13 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.segments("surface")
-        if state.settings().surface is not Surface.SOURCE:
-            controls.select("fineness", width=90)
         controls.segments("drawings")
+        controls.drawing_errors()
+        controls.thinning()
         with st.popover("More settings"):
-            for name in ("rule", "region", "behind_hit"):
+            if state.settings().surface is not Surface.SOURCE:
+                controls.select("fineness")
+            for name in ("region", "behind_hit"):
                 controls.radio(name)
             for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
                 controls.slider(name)

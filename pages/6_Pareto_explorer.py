@@ -12,7 +12,10 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.segments("exploring")
-        controls.select("rule", width=190)
+        if state.settings().exploring is not Exploring.ONE:
+            controls.select("rule", width=190)
+        controls.drawing_errors()
+        controls.thinning()
         with st.popover("More settings"):
             for name in ("behind_hit", "region"):
                 controls.radio(name)
@@ -23,7 +26,7 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
     if run.notice:
         st.warning(run.notice)
     views = {
-        Exploring.ONE: exploring.one_front,
+        Exploring.ONE: exploring.one_drawing,
         Exploring.SEARCH: searching.search,
         Exploring.ALL: comparing.all_drawings,
     }

@@ -81,7 +81,8 @@ def press(app, label):
 @pytest.mark.parametrize("drawings", Drawings)
 def test_each_surface_is_drawn_for_one_drawing_and_for_all(surface, drawings):
     app = open_with(SWEEP, surface=surface, drawings=drawings, cell_px=10)
-    assert len(app.get("plotly_chart")) == (2 if drawings is Drawings.THIS else 1)
+    # Precision, recall and bits, in a row for each rule.
+    assert len(app.get("plotly_chart")) == (6 if drawings is Drawings.THIS else 1)
 
 
 def test_each_fineness_is_drawn():
@@ -108,7 +109,7 @@ def test_all_five_have_their_maxima_in_one_table():
 @pytest.mark.parametrize("picture", Picture)
 def test_one_front_is_explored(axes, picture):
     app = open_with(EXPLORER, axes=axes, picture=picture, cell_px=10)
-    assert "Uninformative: p_free = 0.5" in texts(app)
+    assert "No drawing (blank map)" in texts(app)
 
 
 @pytest.mark.parametrize("rule", UpdateRule)
@@ -118,7 +119,7 @@ def test_all_readings_of_the_source_can_be_explored(rule, behind_hit):
     open_with(EXPLORER, cell_px=10, rule=rule, behind_hit=behind_hit, region=region)
 
 
-@pytest.mark.parametrize("label", ["Recommended", "Best precision", "Best recall"])
+@pytest.mark.parametrize("label", ["Best F2", "Best precision", "Best recall"])
 def test_a_button_chooses_a_point_of_the_front(label):
     app = press(open_with(EXPLORER), label)
     assert "The chosen pair is on the front." in texts(app)
@@ -136,11 +137,24 @@ def test_the_slider_walks_along_the_front():
     name, front = longest_front(5)
     app = open_with(EXPLORER, cell_px=5)
     app.selectbox(key=control(app, "choice")).select(name).run()
-    slider = app.select_slider(key="front_point")
-    other = 0 if slider.value else 1
-    slider.set_value(other).run()
-    pair = setting(app, "p_wall"), setting(app, "p_space")
-    assert pair == (front.p_wall[other], front.p_space[other])
+    slider = app.select_slider(key="front_point_prior_once")
+    assert slider.value == 0  # the chosen pair is not on the front
+    for index in (1, len(front)):
+        slider.set_value(index).run()
+        pair = setting(app, "p_wall"), setting(app, "p_space")
+        assert pair == (front.p_wall[index - 1], front.p_space[index - 1])
+        slider = app.select_slider(key="front_point_prior_once")
+        assert slider.value == index
+
+
+def test_the_slider_of_a_front_stands_on_no_point_that_was_not_chosen():
+    name, front = longest_front(5)
+    app = open_with(EXPLORER, cell_px=5)
+    app.selectbox(key=control(app, "choice")).select(name).run()
+    app.select_slider(key="front_point_prior_once").set_value(len(front)).run()
+    app.slider(key=control(app, "p_space")).set_value(0.05).run()
+    assert app.select_slider(key="front_point_prior_once").value == 0
+    assert "The chosen pair is off the front" in texts(app)
 
 
 def test_a_front_of_one_point_is_reported():
@@ -148,7 +162,7 @@ def test_a_front_of_one_point_is_reported():
     app = of_one_sheet(
         EXPLORER, Settings(range_px=20, cell_px=4), prior_wall=True, true_wall=True
     )
-    assert "One pair attains the highest precision and the highest recall" in texts(app)
+    assert "attains the highest precision and the highest recall of all" in texts(app)
 
 
 def test_an_empty_set_c_is_reported():
@@ -402,14 +416,14 @@ def test_an_axis_has_short_decimals_and_both_ends():
 def test_the_interpolated_surface_is_exact_at_the_tenths(run_b, objective):
     settings = Settings(surface=Surface.DIFFERENCE, fineness=Fineness.TENTH)
     view = surfaces.surface_view(run_b, settings, objective)
-    np.testing.assert_allclose(view.percent, 0.0, atol=1e-9)
+    np.testing.assert_allclose(view.table, 0.0, atol=1e-9)
     assert view.unit == "points"
 
 
 def test_what_is_pointed_at_is_what_is_drawn(run_b):
     settings = Settings(surface=Surface.EXACT, fineness=Fineness.TWENTIETH)
     view = surfaces.surface_view(run_b, settings, Objective.RECALL)
-    values, words = view.targets()
+    words, values = view.target_texts(), surfaces.TARGETS
     at = values.index(0.3) * len(values) + values.index(0.85)
     recall = run_b.scores(Prior(p_wall=0.3, p_space=0.85)).recall
     assert words[at] == f"{100 * recall:.1f} %"
@@ -417,14 +431,17 @@ def test_what_is_pointed_at_is_what_is_drawn(run_b):
 
 def test_an_undefined_part_of_a_surface_has_a_text():
     view = surfaces.SurfaceView(
-        Objective.PRECISION,
-        Surface.EXACT,
-        [0.1, 0.55, 1.0],
-        np.array([[np.nan, 50.0, 60.0]] * 3),
+        name="precision",
+        unit="%",
+        values=[0.1, 0.55, 1.0],
+        table=np.array([[np.nan, 50.0, 60.0]] * 3),
+        targets=np.array([[np.nan, 50.0]]),
+        blank=50.0,
     )
+    assert view.share_above_blank == pytest.approx(1 / 3)
     assert view.has_gaps
     assert view.range == (50.0, 60.0)
-    assert view.targets()[1][:2] == [surfaces.UNDEFINED, "50.0 %"]
+    assert view.target_texts() == [surfaces.UNDEFINED, "50.0 %"]
     assert surface_figures.colour_range([view]) == (50.0, 100.0)
 
 

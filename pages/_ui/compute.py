@@ -15,6 +15,7 @@ from occsim import (
     MapSettings,
     ParameterError,
     Prior,
+    Region,
     Sensor,
     Trajectory,
     UpdateRule,
@@ -239,9 +240,9 @@ def estimated(of: Run) -> Prior:
     return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
 
 
-def best_in_bits(of: Run, rule: UpdateRule) -> Prior:
-    """The prior whose final map has the least log loss over all cells."""
-    p_free_wall, p_free_space, _ = of.mapped.best_in_bits(rule)
+def best_in_bits(of: Run, rule: UpdateRule, region: Region = Region.ALL) -> Prior:
+    """The prior whose final map has the least log loss over a region."""
+    p_free_wall, p_free_space, _ = of.mapped.best_in_bits(rule, region)
     return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
 
 

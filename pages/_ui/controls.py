@@ -170,6 +170,22 @@ def drawing_errors() -> None:
                 number("flaw_seed")
 
 
+THINNED = {"thickness_px": -2}
+"""What the source's detector probably did to its walls."""
+
+
+def thinning() -> None:
+    """Draw a button that thins the drawn walls by 2 px, or takes all errors off."""
+    has_errors = compute.prior_mask(state.building(), state.settings()) is not None
+    st.button(
+        "Drawing as it is" if has_errors else "Thin walls by 2 px",
+        on_click=state.change,
+        kwargs=NO_ERRORS if has_errors else THINNED,
+        help="Walls thinner than the building's: a hypothesis on how the source found "
+        "its own.",
+    )
+
+
 def _prior_drawing(building: Building) -> None:
     setting = TABLE["prior_drawing"]
     options = compute.prior_drawings(building)

@@ -32,6 +32,7 @@ PATH = "#00856a"
 ROBOT = "#00856a"
 SENSOR = "#00856a"
 HALO = "#ffffff"
+OUTLINE = "#000000"
 CROSSHAIR = "#cc3377"
 STROKE = "#aa4499"
 ERASER = "#cc3377"
@@ -42,5 +43,10 @@ SCORE_SCALE = "cividis"
 # The reference drawings a to e, and other series of one chart.
 SERIES = ["#0072B2", "#D55E00", "#009E73", "#AA4499", "#8a7600", "#555555"]
 MARK = "#cc3377"
+# The border of what beats the blank map, seen on both ends of the scores' colours.
+BLANK_LINE = "#ff5ca8"
+# The two update rules, where both are in one chart.
+ONCE = SERIES[0]
+SUBTRACT = SERIES[1]
 # Auxiliary lines and labels, readable on light and on dark.
 GUIDE = "#808495"

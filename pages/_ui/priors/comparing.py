@@ -1,5 +1,7 @@
 """The Pareto explorer for all drawings: their fronts, and pairs good for all."""
 
+from dataclasses import replace
+
 import streamlit as st
 
 from occsim import Prior, PriorSweep, sample_names
@@ -7,8 +9,9 @@ from occsim._types import IntArray
 from occsim.priors import ParetoFront, near_front
 from pages._ui import compute, controls, shell, state, words
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import front_figures, fronts, maps, surfaces
-from pages._ui.priors.front_figures import DrawingFront
+from pages._ui.priors import front_figures, fronts, maps, marks, scores, surfaces
+from pages._ui.priors.front_figures import Mark
+from pages._ui.priors.scores import BLANK
 from pages._ui.runs import Run
 
 STEP = 0.02
@@ -30,20 +33,28 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
     values = surfaces.axis(STEP)
     sweeps = [compute.sweep(run, values) for run in runs.values()]
     all_fronts = [run.front for run in runs.values()]
+    marks.legend()
     overlay, region = st.columns([5, 4], gap="medium")
     with overlay:
         _overlay(runs)
         controls.segments("axes")
     with region:
         count = near_counts(sweeps, all_fronts, settings.tolerance)
-        figure = front_figures.region_figure(count, values, len(runs), state.pair())
+        # The marks that are the same on every drawing.
+        marked = marks.marked(next(iter(runs.values())))[:2]
+        figure = front_figures.region_figure(
+            count, values, len(runs), marked, state.pair()
+        )
         st.plotly_chart(
             figure, config=CHART_CONFIG, **state.bind_chart("region", of_pairs=True)
         )
         controls.slider("tolerance")
     st.markdown(verdict(count.tolist(), runs, settings.tolerance))
     _smallest(sweeps, all_fronts, values)
+    pair = maps.pair_text(*state.pair())
+    st.markdown(f"**{words.maths('(p_wall, p_space)')} = {pair} on every drawing**")
     st.markdown(table(runs, state.prior()))
+    st.caption(scores.BITS)
 
 
 def near_counts(
@@ -59,16 +70,43 @@ def near_counts(
 
 def _overlay(runs: dict[str, Run]) -> None:
     settings = state.settings()
-    source = Prior()
-    drawn = []
-    for name, run in runs.items():
-        at = [run.scores(prior) for prior in (source, state.prior())]
-        pairs = [(scores.precision, scores.recall) for scores in at]
-        drawn.append(DrawingFront(name, run.front, *pairs))
-    figure = front_figures.overlay_figure(drawn, settings.axes, settings.min_recall)
+    drawn = front_figures.series({name: run.front for name, run in runs.items()})
+    drawn = [
+        replace(one, marks=_marks(one.name, run, one.color))
+        for one, run in zip(drawn, runs.values(), strict=True)
+    ]
+    figure = front_figures.fronts_figure(
+        drawn,
+        settings.axes,
+        settings.min_recall,
+        "Fronts of all drawings (Fig. 4.7)",
+        "overlay",
+    )
     st.plotly_chart(
         figure, config=CHART_CONFIG, **state.bind_chart(f"fronts_{settings.axes.value}")
     )
+
+
+def _marks(name: str, run: Run, color: str) -> tuple[Mark, ...]:
+    """The marked priors and the chosen one on one drawing, in its colour."""
+    priors = {one.name: one.prior for one in marks.marked(run)}
+    priors["chosen"] = state.prior()
+    found = []
+    for title, prior in priors.items():
+        at, symbol = run.scores(prior), marks.SYMBOLS[title]
+        pair = None if prior == BLANK else state.nearest_pair(prior)
+        found.append(
+            Mark(
+                f"{name}: {title}",
+                at.precision,
+                at.recall,
+                symbol,
+                color,
+                pair,
+                title not in (marks.CALIBRATED, marks.IN_BITS),
+            )
+        )
+    return tuple(found)
 
 
 def verdict(count: list[list[int]], runs: dict[str, Run], tolerance: float) -> str:
@@ -120,13 +158,24 @@ def _smallest(
 
 
 def table(runs: dict[str, Run], prior: Prior) -> str:
-    """The scores of one prior on every drawing."""
-    lines = ["| Drawing | Precision | Recall | F2 | Short of its front by |"]
-    lines.append("|---|---|---|---|---|")
+    """The scores of one prior on every drawing, the blank map's beside each."""
+    heads = [
+        f"{score}, {title} | blank"
+        for title in scores.COLUMNS.values()
+        for score in ("F2", "bits")
+    ]
+    lines = [
+        f"| Drawing | {' | '.join(heads)} | Short of its front by |",
+        "|---|" + "---:|" * (2 * len(heads) + 1),
+    ]
     for name, run in runs.items():
-        scores = run.scores(prior)
-        cells = [scores.precision, scores.recall, scores.f2]
-        shown = " | ".join(words.percent(value) for value in cells)
-        gap = maps.tolerance(fronts.distance(run.front, scores))
-        lines.append(f"| {name}: {words.plain(run.building.title)} | {shown} | {gap} |")
+        own, blank = scores.values(run, prior), scores.values(run, BLANK)
+        cells = [
+            f"**{words.percent(a.f2)}** | {words.percent(b.f2)} | "
+            f"**{scores.bits(a.bits)}** | {scores.bits(b.bits)}"
+            for a, b in zip(own, blank, strict=True)
+        ]
+        gap = maps.tolerance(fronts.distance(run.front, run.scores(prior)))
+        title = f"{name}: {words.plain(run.building.title)}"
+        lines.append(f"| {title} | {' | '.join(cells)} | {gap} |")
     return "\n".join(lines)

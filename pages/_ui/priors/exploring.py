@@ -1,166 +1,216 @@
-"""The Pareto explorer for one drawing: its front and the maps on it."""
+"""The Pareto explorer for one drawing: the front of each rule and the maps on them."""
 
 import streamlit as st
 
-from occsim import Prior
+from occsim import Prior, UpdateRule
 from occsim.prior import SOURCE_PAIR
-from occsim.priors import recommend, rectangles_at, set_c
-from pages._ui import controls, palette, shell, state, words
+from occsim.priors import recommend, rectangles_at
+from pages._ui import compute, controls, palette, shell, state, words
+from pages._ui.choices import CHOICES
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import front_figures, fronts, maps
-from pages._ui.priors.front_figures import Mark
+from pages._ui.priors import front_figures, front_words, fronts, maps, marks, scores
+from pages._ui.priors.front_figures import Drawn, Mark, PairsOfRule
 from pages._ui.runs import Run
+from pages._ui.settings import with_changes
+
+LOOKS = {
+    UpdateRule.PRIOR_ONCE: (palette.ONCE, "solid", "circle"),
+    UpdateRule.SUBTRACT_PRIOR: (palette.SUBTRACT, "dash", "cross"),
+}
+"""Colour, line and symbol of each rule."""
+SHORT = {
+    UpdateRule.PRIOR_ONCE: "counted once",
+    UpdateRule.SUBTRACT_PRIOR: "taken off at every reading",
+}
 
 
 @shell.fragment
-def one_front(run: Run) -> None:
-    """A front, its pairs, and the map of the chosen pair; then others to compare."""
-    front = run.front
-    chart, space, side = st.columns([5, 4, 4], gap="medium")
-    # The map first: after a click the user waits for it.
+def one_drawing(run: Run) -> None:
+    """Both fronts, their pairs, the chosen pair's maps; then the ends of each front."""
+    both = scores.both_rules(run)
+    marks.legend()
+    chart, space, side = st.columns([5, 4, 3], gap="medium")
+    # The maps first: after a click the user waits for them.
     with side:
-        maps.chosen_map(run)
-        maps.against_uninformative(run, state.prior())
+        _chosen_maps(both)
+    drawn = [_drawn(one) for one in both]
+    found = _as_found(run)
     with chart:
-        _front_chart(run)
-        if len(front) > 1:
-            _point_slider(run)
+        _front_chart([*map(_ghost, found), *drawn])
     with space:
-        _prior_space(run)
-        with st.container(horizontal=True):
-            controls.slider("p_wall", width=controls.NARROW_PX)
-            controls.slider("p_space", width=controls.NARROW_PX)
-    _choices(run)
-    _others(run)
+        _prior_space(both, drawn)
+    _choices()
+    columns = st.columns(2, gap="large")
+    for i, (one, column) in enumerate(zip(both, columns, strict=True)):
+        with column:
+            _of_rule(one, found[i] if found else None)
+    st.caption(scores.BITS)
+    _ends(both)
     explain()
 
 
-def _front_chart(run: Run) -> None:
+def _chosen_maps(both: list[Run]) -> None:
+    title = f"(p_wall, p_space) = {maps.pair_text(*state.pair())}"
+    st.markdown(f"**{words.maths(title)}**")
+    for one in both:
+        st.image(
+            one.picture(state.prior(), state.settings().picture),
+            width="stretch",
+            caption=f"Drawing {SHORT[one.settings.rule]}",
+        )
+
+
+def _as_found(run: Run) -> list[Run]:
+    """The drawing without its errors, under each rule; nothing if it has none."""
+    if not run.has_errors:
+        return []
+    settings = with_changes(run.settings, controls.NO_ERRORS)
+    return scores.both_rules(compute.run(run.building, settings))
+
+
+def _ghost(found: Run) -> Drawn:
+    color, dash, symbol = LOOKS[found.settings.rule]
+    return Drawn("the same, drawing as it is", found.front, color, dash, symbol, size=0)
+
+
+def _drawn(run: Run) -> Drawn:
+    color, dash, symbol = LOOKS[run.settings.rule]
+    name = f"drawing {SHORT[run.settings.rule]}"
+    found = [_mark(run, one.prior, one.name, one.symbol) for one in marks.marked(run)]
+    found.append(_mark(run, state.prior(), "chosen", marks.SYMBOLS["chosen"]))
+    return Drawn(name, run.front, color, dash, symbol, marks=tuple(found))
+
+
+def _mark(run: Run, prior: Prior, name: str, symbol: str) -> Mark:
+    """A map of one rule; the blank one is the same under both."""
+    at, is_blank = run.scores(prior), prior == scores.BLANK
+    color = palette.UNSEEN if is_blank else LOOKS[run.settings.rule][0]
+    full = name if is_blank else f"{name}, drawing {SHORT[run.settings.rule]}"
+    pair = None if is_blank else state.nearest_pair(prior)
+    fixed = name in (marks.CALIBRATED, marks.IN_BITS)
+    return Mark(full, at.precision, at.recall, symbol, color, pair, not fixed)
+
+
+def _front_chart(drawn: list[Drawn]) -> None:
     settings = state.settings()
-    figure = front_figures.front_figure(
-        run.front, settings.axes, _marks(run), settings.min_recall
+    figure = front_figures.fronts_figure(
+        drawn,
+        settings.axes,
+        settings.min_recall,
+        "Pareto front under each rule",
+        "front",
     )
     st.plotly_chart(
         figure, config=CHART_CONFIG, **state.bind_chart(f"front_{settings.axes.value}")
     )
 
 
-def _marks(run: Run) -> list[Mark]:
-    source = Prior()
-    wanted = (
-        ("uninformative", Prior.uninformative(), "square", palette.UNSEEN, None),
-        ("source's", source, "star", "white", SOURCE_PAIR),
-        ("chosen", state.prior(), "circle-open", palette.MARK, None),
-    )
-    marks = []
-    for name, prior, *look in wanted:
-        scores = run.scores(prior)
-        marks.append(Mark(name, scores.precision, scores.recall, *look))
-    return marks
-
-
-def _point_slider(run: Run) -> None:
-    front = run.front
-    labels = [
-        f"{words.percent(precision)}, {words.percent(recall)}"
-        for precision, recall in fronts.scores_at(front)
+def _prior_space(both: list[Run], drawn: list[Drawn]) -> None:
+    # A pair set by hand may lie below the box of the front.
+    low = min(0.1, *state.pair())
+    rules = [
+        PairsOfRule(look, rectangles_at(one.surface, *state.pair(), low, 1.0).tolist())
+        for one, look in zip(both, drawn, strict=True)
     ]
-
-    def choose(index: int) -> None:
-        state.choose_pair(float(front.p_wall[index]), float(front.p_space[index]))
-
-    st.select_slider(
-        "Point of the front nearest to the chosen pair (precision, recall)",
-        range(len(front)),
-        format_func=labels.__getitem__,
-        help="Points that lie too close to be clicked can be reached here.",
-        **state.bind_index(
-            "front_point", fronts.nearest(front, run.scores(state.prior())), choose
-        ),
-    )
-
-
-def _prior_space(run: Run) -> None:
-    rectangles = rectangles_at(run.surface, *state.pair(), *_bounds()).tolist()
     figure = front_figures.prior_space_figure(
-        run.front, rectangles, state.pair(), state.settings().min_recall
+        rules, marks.marked(both[0]), state.pair(), state.settings().min_recall
     )
     st.plotly_chart(
         figure, config=CHART_CONFIG, **state.bind_chart("prior_space", of_pairs=True)
     )
+    st.caption(
+        "Shaded: the pairs that score as the chosen one, in the rule's colour. "
+        f"{words.maths(marks.BEYOND)}"
+    )
 
 
-def _bounds() -> tuple[float, float]:
-    # A pair set by hand may lie below the box of the front.
-    return min(0.1, *state.pair()), 1.0
-
-
-def _choices(run: Run) -> None:
-    front, min_recall = run.front, state.settings().min_recall
-    best = recommend(front, min_recall)
-    ends = {"Best precision": 0, "Best recall": len(front) - 1} if len(front) else {}
-    picks = {"Recommended": best, **ends}
+def _choices() -> None:
     with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.slider("p_wall", width=controls.NARROW_PX)
+        controls.slider("p_space", width=controls.NARROW_PX)
         controls.slider("min_recall", width=controls.NARROW_PX)
-        for name, index in picks.items():
-            pair = SOURCE_PAIR
-            if index is not None:
-                pair = float(front.p_wall[index]), float(front.p_space[index])
-            st.button(
-                name,
-                on_click=state.choose_pair,
-                args=pair,
-                disabled=index is None,
-            )
         st.button("Source's (0.2, 0.9)", on_click=state.choose_pair, args=SOURCE_PAIR)
         controls.segments("axes")
         controls.segments("picture")
-    st.caption(_where(run))
 
 
-def _where(run: Run) -> str:
-    """Which pair is recommended, and how far the chosen one is from the front."""
-    front, min_recall = run.front, state.settings().min_recall
-    best = recommend(front, min_recall)
-    if best is None:
-        said = ["Set C is empty: no point of the front has a recall above its bound."]
-    else:
-        n_inside = len(set_c(front, min_recall))
-        pair = maps.pair_text(float(front.p_wall[best]), float(front.p_space[best]))
-        said = [
-            f"{n_inside} of {len(front)} points lie in set C (full circles); {pair} "
-            "has the highest F2 of them and is recommended."
-        ]
-    if len(front) == 1:
-        said.append(
-            "One pair attains the highest precision and the highest recall, so nothing "
-            "has to be given up here. Other drawings and larger cells have longer "
-            "fronts."
+def _of_rule(run: Run, found: Run | None) -> None:
+    """One rule: what its front says, its points to choose, the chosen pair's scores."""
+    rule, min_recall = run.settings.rule, state.settings().min_recall
+    st.markdown(f"**{CHOICES[rule]}**")
+    said = [front_words.front_text(run)]
+    if found:
+        said.append(front_words.found_text(found))
+    if len(run.front):
+        said.append(front_words.recommended_text(run, min_recall))
+    said += [
+        front_words.source_text(run),
+        front_words.distance_text(run, state.prior()),
+    ]
+    st.markdown(words.maths(" ".join(filter(None, said))))
+    st.caption(words.maths(front_words.marks_text(marks.marked(run))))
+    if len(run.front):
+        _buttons(run, min_recall)
+    if len(run.front) > 1:
+        _point_slider(run)
+    st.markdown(scores.table(run, state.prior()))
+
+
+def _buttons(run: Run, min_recall: float) -> None:
+    pairs = fronts.pairs_of(run.front)
+    best = recommend(run.front, min_recall)
+    picks = {"Best F2": best, "Best precision": 0, "Best recall": len(pairs) - 1}
+    with st.container(horizontal=True):
+        for name, index in picks.items():
+            st.button(
+                name,
+                on_click=state.choose_pair,
+                args=SOURCE_PAIR if index is None else pairs[index],
+                disabled=index is None,
+                key=f"{name} {run.settings.rule.value}",
+            )
+
+
+def _point_slider(run: Run) -> None:
+    """Steps along the front; a first place for a chosen pair that is not on it."""
+    pairs = fronts.pairs_of(run.front)
+    labels = ["not on it"] + [
+        f"{words.percent(precision)}, {words.percent(recall)}"
+        for precision, recall in fronts.scores_at(run.front)
+    ]
+    here = run.scores(state.prior())
+    on_front = fronts.distance(run.front, here) == 0.0
+    place = 1 + fronts.nearest(run.front, here) if on_front else 0
+
+    def choose(index: int) -> None:
+        if index:
+            state.choose_pair(*pairs[index - 1])
+
+    st.select_slider(
+        "Along the front (precision, recall)",
+        range(len(labels)),
+        format_func=labels.__getitem__,
+        help="Points that lie too close to be clicked can be reached here.",
+        **state.bind_index(f"front_point_{run.settings.rule.value}", place, choose),
+    )
+
+
+def _ends(both: list[Run]) -> None:
+    """The map of no drawing, and those at the ends of each front."""
+    kind = state.settings().picture
+    shown = [("No drawing (blank map)", both[0], scores.BLANK)]
+    for one in both:
+        pairs = fronts.pairs_of(one.front)
+        ends = dict.fromkeys([*pairs[:1], *pairs[-1:]])
+        names = (
+            ["Best in both"] if len(ends) == 1 else ["Best precision", "Best recall"]
         )
-    gap = fronts.distance(front, run.scores(state.prior()))
-    if gap == 0.0:
-        said.append("The chosen pair is on the front.")
-    elif gap > 0.0:
-        said.append(
-            "The chosen pair is off the front: the nearest point is better by up to "
-            f"{100 * gap:.1f} points."
-        )
-    said.append("The pink rectangles hold all pairs that score as it does.")
-    return " ".join(said)
-
-
-def _others(run: Run) -> None:
-    front, kind = run.front, state.settings().picture
-    priors = {"Uninformative: p_free = 0.5": Prior.uninformative()}
-    if len(front):
-        for name, index in (("Best precision", 0), ("Best recall", -1)):
-            pair = float(front.p_wall[index]), float(front.p_space[index])
-            text = maps.pair_text(*pair)
-            priors[f"{name}: {text}"] = Prior(p_wall=pair[0], p_space=pair[1])
-    for column, (title, prior) in zip(st.columns(3), priors.items(), strict=False):
+        for name, pair in zip(names, ends, strict=False):
+            title = f"{name}, {SHORT[one.settings.rule]}: {maps.pair_text(*pair)}"
+            shown.append((title, one, Prior(p_wall=pair[0], p_space=pair[1])))
+    for column, (title, one, prior) in zip(st.columns(len(shown)), shown, strict=True):
         with column:
-            maps.map_of(run, prior, title, kind)
-            maps.against_uninformative(run, prior)
+            maps.map_of(one, prior, title, kind)
     st.caption(maps.LEGENDS[kind])
 
 
@@ -169,19 +219,21 @@ def explain() -> None:
     see, tell, why = st.columns(3, gap="large")
     with see:
         st.markdown(
-            "**See.** Each circle is a prior that no other beats in both scores. Click "
-            "one, or move the slider along the front, and watch what the map gains and "
-            "loses."
+            "**See.** Each point is a prior that no other beats in both scores under "
+            "its rule. Click one, or move the slider along a front, and watch what the "
+            "map gains and loses."
         )
     with tell:
         st.markdown(
-            "**Predict**, then click. Which end of the front has the thicker walls?"
+            "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
+            "Which front gets more points, and what does each point give up?"
         )
         with st.expander("And then?"):
             st.markdown(
-                "The end of high recall: more cells are called wall there, right ones "
-                "and wrong ones. At the end of high precision only the surest walls "
-                "are left."
+                "Along a front, more recall means more cells called wall, right ones "
+                "and wrong ones. A drawing whose walls are thinner than the "
+                "building's leaves true walls among the cells of free space, and a "
+                "prior for free space cannot serve both."
             )
     with why:
         st.markdown(

@@ -6,28 +6,29 @@ from typing import Any
 import plotly.graph_objects as go
 from plotly.colors import sample_colorscale
 
-from occsim.prior import SOURCE_PAIR
 from occsim.priors import ParetoFront
 from pages._ui import palette, words
 from pages._ui.choices import FrontAxes
-from pages._ui.priors.fronts import scores_at
+from pages._ui.priors.fronts import pairs_of, scores_at
+from pages._ui.priors.marks import MarkedPrior
 from pages._ui.priors.surface_figures import (
     Pair,
+    pair_axes,
     pair_marks,
     pair_targets,
-    square_axes_of,
 )
 from pages._ui.priors.surfaces import HIGH, LOW
 
-FRONT_PX = 380
+FRONT_PX = 400
+# Recall to the right and precision up, in either quantity.
 WORDS = {
     FrontAxes.SCORES: ("recall, %", "precision, %"),
-    FrontAxes.INVERSE: ("1/precision", "1/recall"),
+    FrontAxes.INVERSE: ("1/recall", "1/precision"),
 }
-# The border is a staircase: nothing is attained between two points.
-STEPS = {FrontAxes.SCORES: "vh", FrontAxes.INVERSE: "hv"}
-
-
+BEST = {FrontAxes.SCORES: 100.0, FrontAxes.INVERSE: 1.0}
+"""The value of both axes beyond which there is nothing."""
+STEPS = "vh"
+"""The border is a staircase: nothing is attained between two points."""
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
@@ -35,66 +36,128 @@ DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 class Mark:
     """One map of its own in a chart of fronts: a name, its scores, a symbol.
 
-    A click chooses its ``pair``, if it has one.
+    A click chooses its ``pair``, if it has one. A mark that does not set the axes
+    stands at the border of the chart if it lies beyond.
     """
 
     name: str
     precision: float
     recall: float
     symbol: str
-    color: str = "white"
+    color: str = palette.HALO
     pair: Pair | None = None
+    sets_axes: bool = True
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Drawn:
+    """A front as it is drawn, and the marked maps that belong to it.
+
+    With a ``size`` of 0 only its border is drawn, pale: a front to compare with.
+    """
+
+    name: str
+    front: ParetoFront
+    color: str = palette.ONCE
+    dash: str = "solid"
+    symbol: str = "circle"
+    size: int = 9
+    marks: tuple[Mark, ...] = ()
 
 
 def place(axes: FrontAxes, precision: Any, recall: Any) -> tuple[Any, Any]:
     """Where scores lie in a chart: x and y; numbers or arrays."""
     if axes is FrontAxes.INVERSE:
-        return 1.0 / precision, 1.0 / recall
+        return 1.0 / recall, 1.0 / precision
     return 100.0 * recall, 100.0 * precision
+
+
+def fronts_figure(
+    drawn: list[Drawn], axes: FrontAxes, min_recall: float, title: str, revision: str
+) -> go.Figure:
+    """Some fronts with their marks; full points are those of set C, a click chooses."""
+    figure = go.Figure()
+    shown = [m for d in drawn for m in d.marks if m.precision > 0.0 and m.recall > 0.0]
+    for one in drawn:
+        figure.add_trace(front_steps(one, axes))
+    points = [point for one in drawn for point in scores_at(one.front)]
+    # A calibrated prior that is taken off at every reading can score next to nothing:
+    # it must not squeeze the fronts.
+    points += [(m.precision, m.recall) for m in shown if m.sets_axes]
+    ends = frame_front(figure, axes, points, title, revision)
+    figure.add_traces([mark_trace(mark, axes, ends) for mark in shown])
+    # The points last, so that they lie on top and can be clicked.
+    for one in drawn:
+        if one.size:
+            figure.add_trace(front_points(one, axes, min_recall))
+    threshold(figure, axes, min_recall)
+    return figure
 
 
 def front_figure(
     front: ParetoFront, axes: FrontAxes, marks: list[Mark], min_recall: float
 ) -> go.Figure:
-    """The exact front; full points are those of set C, a click chooses one."""
-    shown = [mark for mark in marks if mark.precision > 0.0 and mark.recall > 0.0]
-    figure = go.Figure(front_steps(front, axes, palette.SERIES[0], "exact front"))
-    # The points last, so that they lie on top and can be clicked.
-    figure.add_traces([mark_trace(mark, axes) for mark in shown])
-    figure.add_trace(front_points(front, axes, min_recall))
-    threshold(figure, axes, min_recall)
-    points = scores_at(front) + [(mark.precision, mark.recall) for mark in shown]
-    frame_front(figure, axes, points, "front")
-    return figure
+    """One exact front with some marked maps."""
+    one = Drawn("exact front", front, marks=tuple(marks))
+    return fronts_figure([one], axes, min_recall, "Exact front", "front")
 
 
-def front_steps(
-    front: ParetoFront, axes: FrontAxes, color: str, name: str, dash: str = "solid"
-) -> go.Scatter:
+def study_figure(
+    fronts: dict[str, ParetoFront], axes: FrontAxes, min_recall: float
+) -> go.Figure:
+    """The fronts of several drawings, each in its colour and dashes."""
+    return fronts_figure(series(fronts), axes, min_recall, "Exact fronts", "study")
+
+
+def series(
+    fronts: dict[str, ParetoFront], marks: dict[str, tuple[Mark, ...]] | None = None
+) -> list[Drawn]:
+    """The fronts of several drawings, told apart by colour and dashes."""
+    return [
+        Drawn(
+            name,
+            front,
+            palette.SERIES[i % len(palette.SERIES)],
+            DASHES[i % len(DASHES)],
+            size=6,
+            marks=(marks or {}).get(name, ()),
+        )
+        for i, (name, front) in enumerate(fronts.items())
+    ]
+
+
+def front_steps(drawn: Drawn, axes: FrontAxes) -> go.Scatter:
     """The border of what can be attained."""
-    x, y = place(axes, front.precision, front.recall)
-    line = {"shape": STEPS[axes], "color": color, "width": 1.5, "dash": dash}
+    x, y = place(axes, drawn.front.precision, drawn.front.recall)
+    line = {"shape": STEPS, "color": drawn.color, "width": 1.5}
+    line["dash"] = drawn.dash
     return go.Scatter(
-        x=x, y=y, mode="lines", line=line, name=name, hoverinfo="skip", opacity=0.8
+        x=x,
+        y=y,
+        # A front of one point has no border; its symbol stands in the legend.
+        mode="lines" if len(drawn.front) > 1 else "lines+markers",
+        line=line,
+        marker={"symbol": drawn.symbol, "size": drawn.size or 5},
+        name=drawn.name,
+        hoverinfo="skip",
+        opacity=0.8 if drawn.size else 0.5,
     )
 
 
-def front_points(front: ParetoFront, axes: FrontAxes, min_recall: float) -> go.Scatter:
+def front_points(drawn: Drawn, axes: FrontAxes, min_recall: float) -> go.Scatter:
     """The points of a front; those outside set C are hollow."""
+    front = drawn.front
     x, y = place(axes, front.precision, front.recall)
-    inside = [recall > min_recall for recall in front.recall.tolist()]
-    color = palette.SERIES[0]
-    rows = zip(front.p_wall.tolist(), front.p_space.tolist(), strict=True)
     marker = {
-        "size": 9,
-        "symbol": ["circle" if flag else "circle-open" for flag in inside],
-        "color": color,
+        "size": drawn.size,
+        "symbol": _symbols(drawn, min_recall),
+        "color": drawn.color,
         "opacity": 1,
     }
     return go.Scatter(
         x=x,
         y=y,
-        customdata=[list(row) for row in rows],
+        customdata=[list(pair) for pair in pairs_of(front)],
         text=[
             f"precision {100 * p:.1f} %, recall {100 * r:.1f} %, F2 {100 * f:.1f} %"
             for p, r, f in zip(front.precision, front.recall, front.f2, strict=True)
@@ -103,21 +166,32 @@ def front_points(front: ParetoFront, axes: FrontAxes, min_recall: float) -> go.S
         marker=marker,
         selected={"marker": {"opacity": 1}},
         unselected={"marker": {"opacity": 1}},
-        name="its points",
+        name=drawn.name,
         hovertemplate=(
-            "%{text}<br>"
+            f"{drawn.name}<br>%{{text}}<br>"
             + words.chart("p_wall %{customdata[0]:.3g}, p_space %{customdata[1]:.3g}")
             + "<extra></extra>"
         ),
         showlegend=False,
+        cliponaxis=False,
     )
 
 
-def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
-    """One marked map."""
-    x, y = place(axes, mark.precision, mark.recall)
+def _symbols(drawn: Drawn, min_recall: float) -> list[str]:
+    inside = [recall > min_recall for recall in drawn.front.recall.tolist()]
+    return [drawn.symbol if flag else f"{drawn.symbol}-open" for flag in inside]
+
+
+def mark_trace(mark: Mark, axes: FrontAxes, ends: list[Pair]) -> go.Scatter:
+    """One marked map; beyond the ends of the axes it stands at the border, labelled."""
+    true = place(axes, mark.precision, mark.recall)
+    x, y = (min(max(at, low), high) for at, (low, high) in zip(true, ends, strict=True))
+    beyond = (x, y) != true
+    label = f"{mark.name.split(',')[0]}: {100 * mark.precision:.0f} %, "
+    label += f"{100 * mark.recall:.0f} %"
     is_ring = mark.symbol.endswith("-open")
-    line = {"color": mark.color if is_ring else "black", "width": 3 if is_ring else 1}
+    line = {"color": mark.color if is_ring else palette.OUTLINE}
+    line["width"] = 3 if is_ring else 1
     size = 17 if is_ring else 13
     marker = {"symbol": mark.symbol, "size": size, "color": mark.color, "line": line}
     about = f"{mark.name}<br>precision {100 * mark.precision:.1f} %, "
@@ -126,14 +200,18 @@ def mark_trace(mark: Mark, axes: FrontAxes) -> go.Scatter:
         x=[x],
         y=[y],
         customdata=None if mark.pair is None else [list(mark.pair)],
-        mode="markers",
+        mode="markers+text" if beyond else "markers",
+        text=[label],
+        textposition="middle right",
+        textfont={"size": 11},
         name=mark.name,
         marker=marker,
         selected={"marker": {"opacity": 1}},
         unselected={"marker": {"opacity": 1}},
         # A ring lies around its point and must not catch the pointer.
         hoverinfo="skip" if is_ring else None,
-        hovertemplate=None if is_ring else about,
+        hovertemplate=None if is_ring else words.chart(about),
+        showlegend=False,
         cliponaxis=False,
     )
 
@@ -142,74 +220,110 @@ def threshold(figure: go.Figure, axes: FrontAxes, min_recall: float) -> None:
     """A line at the smallest recall of set C; not drawn if all points exceed it."""
     if min_recall <= 0.0:
         return
-    x, y = place(axes, 1.0, min_recall)
+    x, _ = place(axes, 1.0, min_recall)
     note = {"text": f"set C: recall > {min_recall:.2f}", "font_size": 11}
-    line = {"dash": "dot", "width": 1, "color": palette.GUIDE}
-    if axes is FrontAxes.SCORES:
-        figure.add_vline(x, line=line, annotation=note)
-    else:
-        figure.add_hline(y, line=line, annotation=note)
+    figure.add_vline(
+        x, line={"dash": "dot", "width": 1, "color": palette.GUIDE}, annotation=note
+    )
+
+
+def axis_ends(axes: FrontAxes, values: list[float], margin: float = 0.08) -> Pair:
+    """Ends of an axis that shows some values; nothing lies beyond its best value."""
+    pad = margin * (max(values) - min(values)) or 0.05 * max(values)
+    low, high = min(values) - pad, max(values) + pad
+    if axes is FrontAxes.INVERSE:
+        return max(low, BEST[axes]), high
+    return max(low, 0.0), min(high, BEST[axes])
 
 
 def frame_front(
-    figure: go.Figure, axes: FrontAxes, points: list[Pair], revision: str
-) -> None:
-    """Axes, height and legend of a chart of points of precision and recall."""
-    titles = WORDS[axes]
+    figure: go.Figure,
+    axes: FrontAxes,
+    points: list[Pair],
+    title: str,
+    revision: str,
+) -> list[Pair]:
+    """Set title, height, legend and axes of a chart of points; return the axes' ends.
+
+    Without a point the axes span all scores.
+    """
+    points = points or [(0.05, 0.05), (1.0, 1.0)]
     places = [place(axes, precision, recall) for precision, recall in points]
+    ends = [axis_ends(axes, list(values)) for values in zip(*places, strict=True)]
     for which, update in enumerate((figure.update_xaxes, figure.update_yaxes)):
-        values = [where[which] for where in places]
-        update(title_text=titles[which], title_standoff=4, zeroline=False)
-        if values:
-            pad = 0.08 * (max(values) - min(values)) or 0.05 * max(values)
-            update(range=[min(values) - pad, max(values) + pad])
+        update(title_text=WORDS[axes][which], title_standoff=4, zeroline=False)
+        update(range=ends[which])
     figure.update_layout(
+        title={"text": title, "x": 0.0, "font_size": 14},
         height=FRONT_PX,
-        margin={"l": 52, "r": 8, "t": 10, "b": 84},
+        margin={"l": 52, "r": 8, "t": 34, "b": 84},
         legend={"orientation": "h", "y": -0.2, "x": 0, "font_size": 12},
         uirevision=f"{revision} {axes.value}",
         hovermode="closest",
     )
+    return ends
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PairsOfRule:
+    """A front over the prior pairs, and the pairs that score as the chosen one does.
+
+    ``rectangles`` has rows p_wall low and high, p_space low and high.
+    """
+
+    drawn: Drawn
+    rectangles: list[list[float]]
 
 
 def prior_space_figure(
-    front: ParetoFront, rectangles: list[list[float]], chosen: Pair, min_recall: float
+    rules: list[PairsOfRule],
+    marked: list[MarkedPrior],
+    chosen: Pair,
+    min_recall: float,
 ) -> go.Figure:
-    """The front's pairs and all pairs that score as the chosen one does."""
-    figure = go.Figure(_rectangles(rectangles))
-    inside = [recall > min_recall for recall in front.recall.tolist()]
-    symbols = ["circle" if flag else "circle-open" for flag in inside]
-    figure.add_trace(
-        go.Scatter(
-            x=front.p_space,
-            y=front.p_wall,
-            mode="markers",
-            marker={"size": 7, "color": palette.SERIES[0], "symbol": symbols},
-            selected={"marker": {"opacity": 1}},
-            unselected={"marker": {"opacity": 1}},
-            name="front",
-            hovertemplate=words.chart(
-                "p_wall %{y:.3g}, p_space %{x:.3g}<extra></extra>"
-            ),
-        )
-    )
-    figure.add_traces(pair_marks([], chosen))
-    square_axes_of(figure, LOW - 0.03, HIGH + 0.03)
+    """The pairs of some fronts, and all pairs that score as the chosen one does."""
+    figure = go.Figure()
+    for one in rules:
+        figure.add_trace(_rectangles(one))
+    for one in rules:
+        figure.add_trace(_front_pairs(one.drawn, min_recall))
+    figure.add_traces(pair_marks(marked, chosen))
     figure.update_layout(
+        **pair_axes(LOW - 0.03, HIGH + 0.03),
+        title={"text": "The same pairs of priors", "x": 0.0, "font_size": 14},
         height=FRONT_PX,
-        margin={"l": 44, "r": 0, "t": 10, "b": 84},
-        legend={"orientation": "h", "y": -0.2, "x": 0, "font_size": 12},
+        margin={"l": 44, "r": 0, "t": 34, "b": 40},
+        showlegend=False,
         uirevision="prior space",
         hovermode="closest",
     )
     return figure
 
 
-def _rectangles(rows: list[list[float]]) -> go.Scatter:
+def _front_pairs(drawn: Drawn, min_recall: float) -> go.Scatter:
+    return go.Scatter(
+        x=drawn.front.p_space,
+        y=drawn.front.p_wall,
+        mode="markers",
+        marker={
+            "size": 8,
+            "color": drawn.color,
+            "symbol": _symbols(drawn, min_recall),
+        },
+        selected={"marker": {"opacity": 1}},
+        unselected={"marker": {"opacity": 1}},
+        showlegend=False,
+        hovertemplate=f"{drawn.name}<br>"
+        + words.chart("p_wall %{y:.3g}, p_space %{x:.3g}<extra></extra>"),
+        cliponaxis=False,
+    )
+
+
+def _rectangles(of: PairsOfRule) -> go.Scatter:
     # One outline after another; None separates them.
     x: list[float | None] = []
     y: list[float | None] = []
-    for bottom, top, left, right in rows:
+    for bottom, top, left, right in of.rectangles:
         x += [left, right, right, left, left, None]
         y += [bottom, bottom, top, top, bottom, None]
     return go.Scatter(
@@ -217,65 +331,18 @@ def _rectangles(rows: list[list[float]]) -> go.Scatter:
         y=y,
         fill="toself",
         mode="lines",
-        line={"color": palette.MARK, "width": 1.5},
-        name="same scores",
+        line={"color": of.drawn.color, "width": 1.5, "dash": of.drawn.dash},
+        opacity=0.5,
         hoverinfo="skip",
     )
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class DrawingFront:
-    """The front of one drawing, and where two pairs lie in its chart.
-
-    ``source`` and ``chosen`` are precision and recall of the source's pair and of the
-    chosen one.
-    """
-
-    name: str
-    front: ParetoFront
-    source: Pair
-    chosen: Pair
-
-
-def overlay_figure(
-    drawn: list[DrawingFront], axes: FrontAxes, min_recall: float
-) -> go.Figure:
-    """The fronts of several drawings, as in Fig. 4.7; a click chooses a pair."""
-    figure = study_figure({one.name: one.front for one in drawn}, axes, min_recall)
-    points: list[Pair] = []
-    for i, one in enumerate(drawn):
-        color = palette.SERIES[i % len(palette.SERIES)]
-        points += scores_at(one.front)
-        for symbol, scores, pair in (
-            ("star", one.source, SOURCE_PAIR),
-            ("circle-open", one.chosen, None),
-        ):
-            if scores[0] > 0.0 and scores[1] > 0.0:
-                points.append(scores)
-                mark = mark_trace(Mark(one.name, *scores, symbol, color, pair), axes)
-                figure.add_trace(mark.update(showlegend=False))
-    frame_front(figure, axes, points, "overlay")
-    return figure
-
-
-def study_figure(
-    fronts: dict[str, ParetoFront], axes: FrontAxes, min_recall: float
-) -> go.Figure:
-    """The fronts of several drawings, each in its colour and dashes."""
-    figure = go.Figure()
-    for i, (name, front) in enumerate(fronts.items()):
-        color, dash = palette.SERIES[i % len(palette.SERIES)], DASHES[i % len(DASHES)]
-        figure.add_trace(front_steps(front, axes, color, name, dash))
-        dots = front_points(front, axes, min_recall)
-        figure.add_trace(dots.update(marker_color=color, marker_size=6))
-    threshold(figure, axes, min_recall)
-    points = [point for front in fronts.values() for point in scores_at(front)]
-    frame_front(figure, axes, points, "study")
-    return figure
-
-
 def region_figure(
-    count: Any, values: list[float], n_drawings: int, chosen: Pair
+    count: Any,
+    values: list[float],
+    n_drawings: int,
+    marked: list[MarkedPrior],
+    chosen: Pair,
 ) -> go.Figure:
     """For how many drawings each prior pair is near the front."""
     colors = sample_colorscale(
@@ -298,15 +365,20 @@ def region_figure(
             hoverinfo="skip",
         )
     )
-    figure.add_traces(pair_marks([], chosen))
+    figure.add_traces(pair_marks(marked, chosen))
     near = [f"near {n} of {n_drawings} fronts" for row in count.tolist() for n in row]
     figure.add_trace(pair_targets(values, near))
     half = (values[1] - values[0]) / 2
-    square_axes_of(figure, LOW - half, HIGH + half)
     figure.update_layout(
+        **pair_axes(LOW - half, HIGH + half),
+        title={
+            "text": "Near how many fronts a pair lies",
+            "x": 0.0,
+            "font_size": 14,
+        },
         height=FRONT_PX,
-        margin={"l": 44, "r": 0, "t": 10, "b": 84},
-        legend={"orientation": "h", "y": -0.2, "x": 0, "font_size": 12},
+        margin={"l": 44, "r": 0, "t": 34, "b": 40},
+        showlegend=False,
         uirevision="region",
         hovermode="closest",
         hoverdistance=40,

@@ -1,12 +1,27 @@
 """How maps relate to a front: the nearest point, and the distance from it."""
 
+from collections.abc import Iterable
+
 from occsim import Scores
-from occsim.priors import ParetoFront
+from occsim.priors import Maxima, ParetoFront
+
+Pair = tuple[float, float]
 
 
-def scores_at(front: ParetoFront) -> list[tuple[float, float]]:
+def scores_at(front: ParetoFront) -> list[Pair]:
     """Precision and recall of each point."""
     return list(zip(front.precision.tolist(), front.recall.tolist(), strict=True))
+
+
+def pairs_of(found: ParetoFront | Maxima) -> list[Pair]:
+    """The prior pairs of a front or of maxima: p_wall, p_space."""
+    return list(zip(found.p_wall.tolist(), found.p_space.tolist(), strict=True))
+
+
+def is_negative(pair: Pair) -> bool:
+    """Whether a pair calls drawn walls free rather than the space between them."""
+    p_wall, p_space = pair
+    return p_wall > p_space
 
 
 def distance(front: ParetoFront, scores: Scores) -> float:
@@ -34,3 +49,13 @@ def nearest(front: ParetoFront, scores: Scores) -> int:
         for precision, recall in scores_at(front)
     ]
     return gaps.index(min(gaps))
+
+
+def n_beyond(front: ParetoFront, points: Iterable[Iterable[float]]) -> int:
+    """How many points of precision and recall no point of a front attains."""
+    attained = scores_at(front)
+    return sum(
+        not any(p >= precision - 1e-9 and r >= recall - 1e-9 for p, r in attained)
+        for precision, recall in points
+        if precision == precision and recall == recall
+    )

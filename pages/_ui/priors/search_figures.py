@@ -9,9 +9,15 @@ from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
 from pages._ui.compute import SearchStep
-from pages._ui.priors.front_figures import WORDS, front_points, front_steps, place
+from pages._ui.priors.front_figures import (
+    WORDS,
+    Drawn,
+    axis_ends,
+    front_points,
+    front_steps,
+    place,
+)
 from pages._ui.priors.fronts import scores_at
-from pages._ui.priors.surface_figures import Pair
 
 SEARCH_PX = 540
 BELOW = -0.17
@@ -25,16 +31,26 @@ MOVING = [2, 3, 5]
 def still_figure(
     steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
 ) -> go.Figure:
-    """The last generation over the exact front, and the hypervolume so far."""
-    figure = make_subplots(rows=2, row_heights=[0.72, 0.28], vertical_spacing=0.16)
-    color = palette.SERIES[0]
-    for trace in (front_steps(front, axes, color, "exact front"), _dots(front, axes)):
+    """The last generation over the exact front, and the hypervolume so far.
+
+    Before the first generation there is the exact front alone.
+    """
+    exact = Drawn("exact front", front)
+    figure = make_subplots(
+        rows=2 if steps else 1,
+        row_heights=[0.72, 0.28] if steps else None,
+        vertical_spacing=0.16,
+    )
+    dots = front_points(exact, axes, 0.0).update(hoverinfo="skip", hovertemplate=None)
+    for trace in (front_steps(exact, axes), dots):
         figure.add_trace(trace, row=1, col=1)
-    for trace in _population(steps[-1] if steps else None, axes):
-        figure.add_trace(trace, row=1, col=1)
-    figure.add_trace(_curve(steps), row=2, col=1)
-    figure.add_trace(_curve_mark(steps[-1] if steps else None), row=2, col=1)
     _frame(figure, steps, front, axes)
+    if steps:
+        for trace in _population(steps[-1], axes):
+            figure.add_trace(trace, row=1, col=1)
+        figure.add_trace(_curve(steps), row=2, col=1)
+        figure.add_trace(_curve_mark(steps[-1]), row=2, col=1)
+        _frame_curve(figure, steps)
     return figure
 
 
@@ -57,15 +73,8 @@ def replay_figure(
     return figure
 
 
-def _dots(front: ParetoFront, axes: FrontAxes) -> go.Scatter:
-    dots = front_points(front, axes, 0.0)
-    return dots.update(marker_size=9, hoverinfo="skip", hovertemplate=None)
-
-
-def _population(step: SearchStep | None, axes: FrontAxes) -> list[go.Scatter]:
+def _population(step: SearchStep, axes: FrontAxes) -> list[go.Scatter]:
     """The scores that the search used, and the real scores of its pairs."""
-    if step is None:
-        return [go.Scatter(), go.Scatter()]
     promised, real = step.seen, step.real
     traces = []
     for scores, symbol, name in (
@@ -101,10 +110,10 @@ def _curve(steps: list[SearchStep]) -> go.Scatter:
     )
 
 
-def _curve_mark(step: SearchStep | None) -> go.Scatter:
+def _curve_mark(step: SearchStep) -> go.Scatter:
     return go.Scatter(
-        x=[step.number] if step else [],
-        y=[100.0 * step.share] if step else [],
+        x=[step.number],
+        y=[100.0 * step.share],
         mode="markers",
         marker={"symbol": "triangle-up", "size": 11, "color": POPULATION},
         showlegend=False,
@@ -115,38 +124,31 @@ def _curve_mark(step: SearchStep | None) -> go.Scatter:
 def _frame(
     figure: go.Figure, steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
 ) -> None:
-    titles = WORDS[axes]
-    ends = _ends(steps, front, axes)
-    figure.update_xaxes(title_text=titles[0], range=ends[0], row=1, zeroline=False)
-    figure.update_yaxes(title_text=titles[1], range=ends[1], row=1, zeroline=False)
-    last = max(steps[-1].number if steps else 1, 2)
+    places = [place(axes, precision, recall) for precision, recall in scores_at(front)]
+    for which, update in enumerate((figure.update_xaxes, figure.update_yaxes)):
+        # The ends are the same for all generations: those of the exact front.
+        ends = axis_ends(axes, [where[which] for where in places], 0.25)
+        update(title_text=WORDS[axes][which], range=ends, row=1, zeroline=False)
+    figure.update_layout(
+        title={"text": "The population and the exact front", "x": 0.0, "font_size": 14},
+        height=SEARCH_PX if steps else SEARCH_PX * 2 // 3,
+        margin={"l": 56, "r": 8, "t": 64, "b": 8},
+        legend={"orientation": "h", "y": 1.0, "yanchor": "bottom", "x": 0},
+        uirevision="search",
+        showlegend=True,
+    )
+
+
+def _frame_curve(figure: go.Figure, steps: list[SearchStep]) -> None:
+    last = max(steps[-1].number, 2)
     figure.update_xaxes(title_text="generation", range=[0.5, last + 0.5], row=2)
     low = min([100.0 * step.share for step in steps if step.share == step.share] + [95])
     figure.update_yaxes(
-        title_text="hypervolume, %", range=[low - 2, 101.5], row=2, zeroline=False
+        title_text="hypervolume, %", range=[low - 2, 100], row=2, zeroline=False
     )
-    words = {"text": "exact front", "font_size": 11}
+    words = {"text": "exact front", "font_size": 11, "yanchor": "top"}
     line = {"dash": "dot", "width": 1, "color": palette.GUIDE}
     figure.add_hline(100, row=2, col=1, line=line, annotation=words)
-    figure.update_layout(
-        height=SEARCH_PX,
-        margin={"l": 56, "r": 8, "t": 28, "b": 8},
-        legend={"orientation": "h", "y": 1.0, "yanchor": "bottom", "x": 0},
-        uirevision="search",
-    )
-
-
-def _ends(
-    steps: list[SearchStep], front: ParetoFront, axes: FrontAxes
-) -> tuple[Pair, Pair]:
-    """Ends of the axes, the same for all generations: those of the exact front."""
-    places = [place(axes, precision, recall) for precision, recall in scores_at(front)]
-    ends = []
-    for which in range(2):
-        values = [where[which] for where in places]
-        pad = 0.25 * (max(values) - min(values)) or 0.05 * max(values)
-        ends.append((min(values) - pad, max(values) + pad))
-    return ends[0], ends[1]
 
 
 def _buttons() -> dict[str, Any]:

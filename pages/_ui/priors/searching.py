@@ -9,7 +9,7 @@ from pages._ui import compute, controls, state, words
 from pages._ui.choices import Objectives
 from pages._ui.compute import SearchStep
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import search_figures
+from pages._ui.priors import fronts, search_figures
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
@@ -34,7 +34,7 @@ def search(run: Run) -> None:
         if kept:
             figure = search_figures.replay_figure(kept, run.front, settings.axes)
             place.plotly_chart(figure, config=CHART_CONFIG, key="search")
-            st.caption(_summary(kept, settings))
+            st.caption(_summary(run, kept, settings))
         else:
             figure = search_figures.still_figure([], run.front, settings.axes)
             place.plotly_chart(figure, config=CHART_CONFIG, key="bare")
@@ -42,7 +42,7 @@ def search(run: Run) -> None:
                 "No search has been run yet. After a run, the hypervolume by "
                 "generation is shown below the front."
             )
-    _words()
+    _words(has_run=bool(kept))
 
 
 def _controls() -> bool:
@@ -81,7 +81,7 @@ def _watch(run: Run, settings: Settings, key: object, place: DeltaGenerator) -> 
     bar.empty()
 
 
-def _summary(steps: list[SearchStep], settings: Settings) -> str:
+def _summary(run: Run, steps: list[SearchStep], settings: Settings) -> str:
     last = steps[-1]
     text = (
         f"{last.number} generations of {settings.pop_size} pairs, seed "
@@ -93,17 +93,28 @@ def _summary(steps: list[SearchStep], settings: Settings) -> str:
     if settings.objectives is Objectives.INTERPOLATED:
         text += (
             " Hollow triangles: scores in the interpolated table. Full: scores of "
-            "the maps of these pairs."
+            f"the maps of these pairs. {beyond_text(run, last)}"
         )
     return text
 
 
-def _words() -> None:
+def beyond_text(run: Run, step: SearchStep) -> str:
+    """How many pairs are promised scores that no pair attains."""
+    n = 0 if step.seen is None else fronts.n_beyond(run.front, step.seen.tolist())
+    if n == 0:
+        return "No hollow one lies beyond the exact front."
+    return f"{n} hollow ones lie beyond the exact front: no map attains these scores."
+
+
+def _words(*, has_run: bool) -> None:
     see, tell, why = st.columns(3, gap="large")
     with see:
         st.markdown(
             "**See.** Triangles are the population, circles the exact front. Play the "
             "generations, or run the search with another seed."
+            if has_run
+            else "**See.** Circles are the exact front. *Run the search* to see how a "
+            "population of pairs approaches it."
         )
     with tell:
         st.markdown(
@@ -112,9 +123,9 @@ def _words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "It can: between the 10 × 10 pairs the table is an interpolation, "
-                "and hollow triangles may lie beyond the front. No full triangle "
-                "ever does."
+                "Between the 10 × 10 pairs the table is an interpolation, so hollow "
+                "triangles may lie beyond the front; the line below the chart counts "
+                "them. No full triangle ever does."
             )
     with why:
         st.markdown(

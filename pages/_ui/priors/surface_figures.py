@@ -5,19 +5,22 @@ import base64
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from occsim.prior import SOURCE_PAIR
 from pages._ui import palette, words
-from pages._ui.choices import Surface
-from pages._ui.priors.surfaces import HIGH, LOW, SurfaceView
+from pages._ui.priors.marks import MarkedPrior
+from pages._ui.priors.surfaces import HIGH, LOW, TARGETS, SurfaceView
 
 Pair = tuple[float, float]
 P_WALL, P_SPACE = words.chart("p_wall"), words.chart("p_space")
-SURFACE_PX = 400
+SURFACE_PX = 290
 ROW_PX = 250
 ROW_GAP_PX = 56
-COLUMN_GAP = 0.12
-TICKS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+COLUMN_GAP = 0.1
+TICKS = [0.1, 0.4, 0.7, 1.0]
+TITLE = {"x": 0.0, "y": 1.0, "yanchor": "top", "font": {"size": 14}}
 TEN_PERCENT = 10.0
+MOST_BITS = 2.0
+"""End of the scale of bits, twice the loss of knowing nothing: a few confident and
+wrong pairs lose far more, and would make all others look alike."""
 
 # Shown where a score is undefined: the heatmap is transparent there.
 _HATCH = f"""<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">
@@ -29,29 +32,52 @@ HATCH = "data:image/svg+xml;base64," + base64.b64encode(_HATCH.encode()).decode(
 
 
 def colour_range(views: list[SurfaceView]) -> Pair:
-    """Ends of a colour scale shared by some surfaces, in percent."""
+    """Ends of a colour scale shared by some surfaces of one score."""
     low = min(view.range[0] for view in views)
     high = max(view.range[1] for view in views)
-    if views[0].kind is Surface.DIFFERENCE:
+    if views[0].is_difference:
         limit = max(-low, high, 1.0)
         return -limit, limit
+    if views[0].less_is_better:
+        return 0.0, max(min(high, MOST_BITS), 0.1)
     return TEN_PERCENT * min(low // TEN_PERCENT, 9.0), 100.0
 
 
 def heatmap(view: SurfaceView, ends: Pair, bar: dict | None) -> go.Heatmap:
     """One surface in colours; ``bar`` describes its colour bar, None leaves it out."""
-    difference = view.kind is Surface.DIFFERENCE
+    colours = palette.EVIDENCE_SCALE if view.is_difference else palette.SCORE_SCALE
     return go.Heatmap(
         x=view.values,
         y=view.values,
-        z=view.percent.astype("float32"),
+        z=view.table.astype("float32"),
         zmin=ends[0],
         zmax=ends[1],
-        colorscale=palette.EVIDENCE_SCALE if difference else palette.SCORE_SCALE,
+        colorscale=colours,
+        reversescale=view.less_is_better,
         showscale=bar is not None,
         colorbar=bar,
         hoverinfo="skip",
     )
+
+
+def blank_contour(view: SurfaceView) -> list[go.Contour]:
+    """The border of the pairs that are better than the blank map."""
+    if view.blank != view.blank:
+        return []
+    # Just beyond the blank map's value, which a whole step of the surface may have.
+    level = view.blank + (-1e-4 if view.less_is_better else 1e-4)
+    return [
+        go.Contour(
+            x=view.values,
+            y=view.values,
+            z=view.table.astype("float32"),
+            contours={"start": level, "end": level, "size": 1, "coloring": "none"},
+            line={"color": palette.BLANK_LINE, "width": 2, "smoothing": 0},
+            showlegend=False,
+            showscale=False,
+            hoverinfo="skip",
+        )
+    ]
 
 
 def surface_figure(
@@ -59,72 +85,105 @@ def surface_figure(
     *,
     ends: Pair,
     chosen: Pair,
-    best: list[Pair],
-    front: list[Pair] | None = None,
+    marked: list[MarkedPrior],
+    dots: list[Pair],
 ) -> go.Figure:
-    """One surface with the chosen pair, the source's and the best ones."""
-    bar = {"title": {"text": view.unit}, "thickness": 12, "len": 1.0}
-    figure = go.Figure(heatmap(view, ends, bar))
-    if front:
-        figure.add_trace(front_dots(front))
-    figure.add_traces([*pair_marks(best, chosen), target_layer(view)])
-    square_axes(figure, view)
-    figure.update_layout(
-        title={"text": view.objective.value.capitalize(), "x": 0.0, "font_size": 15},
-        height=SURFACE_PX,
-        margin={"l": 44, "r": 0, "t": 34, "b": 66},
-        legend={"orientation": "h", "y": -0.13, "x": 0, "font_size": 12},
-        uirevision="surface",
-        hovermode="closest",
-        hoverdistance=40,
+    """One surface with its marks and some dots: a click on it chooses a pair."""
+    bar = {"thickness": 10, "len": 1.0, "nticks": 5, "xpad": 4}
+    half = (view.values[1] - view.values[0]) / 2
+    low, high = LOW - half, HIGH + half
+    about = f"<span style='font-size:11px;font-weight:400'>{against_blank(view)}</span>"
+    return go.Figure(
+        data=[
+            heatmap(view, ends, bar),
+            *blank_contour(view),
+            *([pair_dots(dots)] if dots else []),
+            *pair_marks(marked, chosen),
+            target_layer(view),
+        ],
+        layout={
+            "title": {**TITLE, "text": f"{title(view)}<br>{about}", "pad": {"t": 16}},
+            "images": [hatch_image(low, high)] if view.has_gaps else [],
+            "height": SURFACE_PX,
+            "margin": {"l": 40, "r": 0, "t": 50, "b": 34},
+            "showlegend": False,
+            "uirevision": "surface",
+            "hovermode": "closest",
+            "hoverdistance": 40,
+            **pair_axes(low, high, showgrid=False),
+        },
     )
-    return figure
+
+
+def title(view: SurfaceView) -> str:
+    """The score of a surface and its unit."""
+    if view.is_difference:
+        return f"{view.name.capitalize()}: interpolated less exact, points"
+    if view.less_is_better:
+        return "Bits per cell (log loss)"
+    return f"{view.name.capitalize()}, {view.unit}"
+
+
+def against_blank(view: SurfaceView) -> str:
+    """How many pairs are better than the blank map."""
+    if view.blank != view.blank:
+        return "" if view.is_difference else "blank map: undefined"
+    value, share = view.text(view.blank), 100.0 * view.share_above_blank
+    return f"blank map {value}; better: {share:.0f} % of the pairs"
 
 
 def rows_figure(
-    rows: list[list[SurfaceView]], titles: list[str], ends: list[Pair], chosen: Pair
+    rows: list[list[SurfaceView]],
+    titles: list[str],
+    ends: list[Pair],
+    marked: list[list[MarkedPrior]],
+    chosen: Pair,
 ) -> go.Figure:
-    """Surfaces of several drawings in rows, one column for each objective."""
+    """Surfaces of several drawings in rows, one column for each score."""
     n_columns = len(rows[0])
     figure = make_subplots(
         rows=len(rows),
         cols=n_columns,
         subplot_titles=[
-            f"{title}: {view.objective.value}"
-            for title, views in zip(titles, rows, strict=True)
-            for view in views
+            f"{name}: {view.name}"
+            for name, row in zip(titles, rows, strict=True)
+            for view in row
         ],
         horizontal_spacing=COLUMN_GAP,
         vertical_spacing=ROW_GAP_PX / (ROW_PX * len(rows)),
     )
-    for i, views in enumerate(rows, start=1):
-        for j, view in enumerate(views, start=1):
+    for i, (row, marks) in enumerate(zip(rows, marked, strict=True), start=1):
+        for j, view in enumerate(row, start=1):
             bar = _column_bar(view.unit, j, n_columns) if i == 1 else None
-            at = {"row": i, "col": j}
-            figure.add_trace(heatmap(view, ends[j - 1], bar), **at)
-            for mark in pair_marks([], chosen):
-                shown = mark.name != "" and i == j == 1
-                figure.add_trace(mark.update(showlegend=shown), **at)
-            half = (view.values[1] - view.values[0]) / 2
-            low, high = LOW - half, HIGH + half
-            figure.add_layout_image(hatch_image(low, high), **at)
-            number = (i - 1) * n_columns + j
-            anchor = "x" if number == 1 else f"x{number}"
-            axes = {"constrain": "domain", "tickvals": TICKS[::3], "showgrid": False}
-            axes["range"] = [low, high]
-            figure.update_xaxes(**axes, **at)
-            figure.update_yaxes(scaleanchor=anchor, **axes, **at)
+            layers = [heatmap(view, ends[j - 1], bar), *blank_contour(view)]
+            _subplot(figure, [*layers, *pair_marks(marks, chosen)], view, i, j)
     figure.update_xaxes(title_text=P_SPACE, row=len(rows))
     figure.update_yaxes(title_text=P_WALL, col=1)
     figure.update_annotations(font_size=12)
     figure.update_layout(
-        height=ROW_PX * len(rows) + 160,
-        margin={"l": 48, "r": 8, "t": 60, "b": 100},
-        legend={"orientation": "h", "y": 1.0, "yanchor": "top", "yref": "container"},
+        height=ROW_PX * len(rows) + 130,
+        margin={"l": 48, "r": 8, "t": 30, "b": 100},
+        showlegend=False,
         uirevision="rows",
         hovermode=False,
     )
     return figure
+
+
+def _subplot(
+    figure: go.Figure, traces: list, view: SurfaceView, row: int, col: int
+) -> None:
+    """Fill one place of a grid of surfaces."""
+    at = {"row": row, "col": col}
+    for trace in traces:
+        figure.add_trace(trace, **at)
+    half = (view.values[1] - view.values[0]) / 2
+    low, high = LOW - half, HIGH + half
+    if view.has_gaps:
+        figure.add_layout_image(hatch_image(low, high), **at)
+    axes = {"tickvals": TICKS, "showgrid": False, "range": [low, high]}
+    figure.update_xaxes(**axes, **at)
+    figure.update_yaxes(**axes, **at)
 
 
 def _column_bar(unit: str, column: int, n_columns: int) -> dict:
@@ -144,50 +203,49 @@ def _column_bar(unit: str, column: int, n_columns: int) -> dict:
     }
 
 
-def pair_marks(best: list[Pair], chosen: Pair) -> list[go.Scatter]:
-    """Marks of the best pairs, the source's and the chosen one."""
-    dark = {"color": "black", "width": 1}
-    marks = []
-    if best:
-        symbol = {"symbol": "triangle-up", "size": 9, "color": "white", "line": dark}
-        marks.append(_mark(best, "maximum", symbol))
-    star = {"symbol": "star", "size": 13, "color": "white", "line": dark}
-    marks.append(_mark([SOURCE_PAIR], "source's", star))
-    halo = {"symbol": "circle-open", "size": 17, "color": palette.HALO}
-    ring = {"symbol": "circle-open", "size": 17, "color": palette.MARK}
-    marks.append(
-        _mark([chosen], "", {**halo, "line": {"width": 6}}).update(showlegend=False)
-    )
-    marks.append(_mark([chosen], "chosen", {**ring, "line": {"width": 3}}))
-    return marks
+def pair_marks(marked: list[MarkedPrior], chosen: Pair) -> list[go.Scatter]:
+    """The marked priors, and a ring round the chosen pair."""
+    dark = {"color": palette.OUTLINE, "width": 1}
+    look = {"symbol": [one.symbol for one in marked], "size": 11, "line": dark}
+    texts = [words.chart(one.text) for one in marked]
+    marks = _points([one.pair for one in marked], {**look, "color": palette.HALO})
+    # One ring within the other: a halo on any ground.
+    widths = {"line": {"width": [6, 3]}, "color": [palette.HALO, palette.MARK]}
+    ring = {"symbol": "circle-open", "size": 17, **widths}
+    return [
+        marks.update(hoverinfo="text", hovertext=texts),
+        _points([chosen, chosen], ring),
+    ]
 
 
-def front_dots(front: list[Pair]) -> go.Scatter:
-    """The pairs of the exact front, black as in the source's Fig. 4.6c."""
-    line = {"color": "white", "width": 0.7}
-    marker = {"size": 5, "color": "black", "line": line}
-    return _mark(front, "exact front", marker)
+def pair_dots(pairs: list[Pair]) -> go.Scatter:
+    """Pairs of the exact front, or of the table's maximum: black, as in Fig. 4.6c."""
+    line = {"color": palette.HALO, "width": 0.7}
+    return _points(pairs, {"size": 5, "color": palette.OUTLINE, "line": line})
 
 
-def _mark(pairs: list[Pair], name: str, marker: dict) -> go.Scatter:
+def _points(pairs: list[Pair], marker: dict) -> go.Scatter:
     return go.Scatter(
         x=[p_space for _, p_space in pairs],
         y=[p_wall for p_wall, _ in pairs],
         mode="markers",
-        name=name,
         marker=marker,
         hoverinfo="skip",
         cliponaxis=False,
+        selected={"marker": {"opacity": 1}},
+        unselected={"marker": {"opacity": 1}},
+        showlegend=False,
     )
 
 
 def target_layer(view: SurfaceView) -> go.Scatter:
     """The points of a surface that react to pointer and click."""
-    values, texts = view.targets()
-    return pair_targets(values, [f"{view.objective.value} {text}" for text in texts])
+    return pair_targets(TARGETS, view.target_texts(), f"{view.name} %{{text}}")
 
 
-def pair_targets(values: list[float], texts: list[str]) -> go.Scatter:
+def pair_targets(
+    values: list[float], texts: list[str], about: str = "%{text}"
+) -> go.Scatter:
     """Invisible points over a heatmap, row by row: it cannot be clicked itself."""
     return go.Scatter(
         x=values * len(values),
@@ -197,33 +255,20 @@ def pair_targets(values: list[float], texts: list[str]) -> go.Scatter:
         marker={"opacity": 0, "size": 6},
         selected={"marker": {"opacity": 0}},
         unselected={"marker": {"opacity": 0}},
-        hovertemplate=words.chart(
-            "p_wall %{y:.2f}<br>p_space %{x:.2f}<br>%{text}<extra></extra>"
-        ),
+        hovertemplate=words.chart("p_wall %{y:.2f}<br>p_space %{x:.2f}<br>")
+        + f"{about}<extra></extra>",
         showlegend=False,
     )
 
 
-def square_axes(figure: go.Figure, view: SurfaceView) -> None:
-    """The axes of a surface, and its background."""
-    half = (view.values[1] - view.values[0]) / 2
-    low, high = LOW - half, HIGH + half
-    square_axes_of(figure, low, high)
-    figure.update_layout(xaxis_showgrid=False, yaxis_showgrid=False)
-    figure.add_layout_image(hatch_image(low, high))
-
-
-def square_axes_of(figure: go.Figure, low: float, high: float) -> None:
-    """p_space to the right and p_wall up, one as long as the other."""
-    shared = {"constrain": "domain", "zeroline": False, "title_standoff": 4}
-    shared |= {"range": [low, high], "fixedrange": True, "tickvals": TICKS, "ticks": ""}
-    figure.update_xaxes(title_text=P_SPACE, constraintoward="left", **shared)
-    figure.update_yaxes(
-        title_text=P_WALL,
-        constraintoward="top",
-        scaleanchor="x",
-        **shared,
-    )
+def pair_axes(low: float, high: float, *, showgrid: bool = True) -> dict:
+    """p_space to the right and p_wall up."""
+    shared = {"range": [low, high], "fixedrange": True, "tickvals": TICKS, "ticks": ""}
+    shared |= {"zeroline": False, "showgrid": showgrid}
+    return {
+        f"{axis}axis": {**shared, "title": {"text": name, "standoff": 2}}
+        for axis, name in (("x", P_SPACE), ("y", P_WALL))
+    }
 
 
 def hatch_image(low: float, high: float) -> dict:

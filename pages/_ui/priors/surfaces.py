@@ -1,19 +1,19 @@
-"""Precision and recall over all prior pairs, as the pages draw them."""
+"""Precision, recall and bits over all prior pairs, as the pages draw them."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
 from occsim import Objective, PriorSweep, interpolate
 from occsim._types import FloatArray
+from occsim.prior import PRIOR_SCALE
 from pages._ui import compute
-from pages._ui.choices import Surface
+from pages._ui.choices import Fineness, Surface
+from pages._ui.priors import scores
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
 UNDEFINED = "undefined: nothing declared occupied"
 LOW, HIGH = 0.1, 1.0
-FINEST_TARGET = 0.02
-"""Pairs closer than this cannot be pointed at separately on a small chart."""
 
 
 def axis(step: float) -> list[float]:
@@ -23,64 +23,120 @@ def axis(step: float) -> list[float]:
 
 
 TENTHS = axis(0.1)
+TARGETS = axis(0.05)
+"""Pairs closer than these cannot be pointed at separately on a small chart."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class SurfaceView:
-    """One objective over a square of prior pairs, in percent.
+    """One score over a square of prior pairs.
 
-    ``values`` is both axes; ``percent`` has a row for each p_wall and a column for
-    each p_space, NaN where undefined.
+    ``values`` is both axes; ``table`` has a row for each p_wall and a column for each
+    p_space, NaN where undefined; ``targets`` is the same over `TARGETS`. ``blank`` is
+    the blank map's value in the same unit, NaN where it is undefined or the surface
+    shows differences.
     """
 
-    objective: Objective
-    kind: Surface
+    name: str
+    unit: str
     values: list[float]
-    percent: FloatArray
+    table: FloatArray
+    targets: FloatArray
+    blank: float = float("nan")
+    is_difference: bool = False
+    less_is_better: bool = False
 
-    @property
-    def unit(self) -> str:
-        """Differences of percentages are percentage points."""
-        return "points" if self.kind is Surface.DIFFERENCE else "%"
+    @cached_property
+    def _all(self) -> list[float]:
+        return [value for row in self.table.tolist() for value in row]
 
     @cached_property
     def range(self) -> tuple[float, float]:
         """Least and largest defined value; both 0 where there is none."""
-        defined = [v for row in self.percent.tolist() for v in row if v == v]
+        defined = [value for value in self._all if value == value]
         return (min(defined), max(defined)) if defined else (0.0, 0.0)
 
     @property
     def has_gaps(self) -> bool:
-        """Whether the objective is undefined somewhere."""
-        return any(v != v for row in self.percent.tolist() for v in row)
+        """Whether the score is undefined somewhere."""
+        return any(value != value for value in self._all)
 
-    def targets(self) -> tuple[list[float], list[str]]:
-        """Points for the pointer: both axes and, row by row, the text of each."""
-        step = self.values[1] - self.values[0]
-        every = max(1, round(FINEST_TARGET / step))
-        rows = self.percent[::every, ::every].tolist()
-        words = [self._words(value) for row in rows for value in row]
-        return self.values[::every], words
+    @property
+    def share_above_blank(self) -> float:
+        """Share of the pairs that are better than the blank map; NaN without one."""
+        if self.blank != self.blank:
+            return float("nan")
+        sign = -1.0 if self.less_is_better else 1.0
+        better = sum(sign * (value - self.blank) > 1e-9 for value in self._all)
+        return better / len(self._all)
 
-    def _words(self, value: float) -> str:
+    def target_texts(self) -> list[str]:
+        """The text of every point for the pointer, row by row."""
+        return [self.text(value) for row in self.targets.tolist() for value in row]
+
+    def text(self, value: float) -> str:
+        """One value with its unit."""
         if value != value:
             return UNDEFINED
-        sign = "+" if self.kind is Surface.DIFFERENCE else ""
-        return f"{value:{sign}.1f} {self.unit}"
+        sign = "+" if self.is_difference else ""
+        digits = 3 if self.less_is_better else 1
+        return f"{value:{sign}.{digits}f} {self.unit}"
+
+
+def views(run: Run, settings: Settings) -> list[SurfaceView]:
+    """The surfaces that the settings ask for, of one rule: two scores, and bits."""
+    scored = [surface_view(run, settings, objective) for objective in Objective]
+    return [*scored, bits_view(run, settings)]
 
 
 def surface_view(run: Run, settings: Settings, objective: Objective) -> SurfaceView:
-    """The surface that the settings ask for."""
-    kind = settings.surface
-    step = 0.01 if kind is Surface.SOURCE else float(settings.fineness.value)
-    values = axis(step)
+    """Precision or recall, in percent or, of a difference, in points."""
+    kind, name, values = settings.surface, objective.value, _values(settings)
+    is_difference = kind is Surface.DIFFERENCE
+    blank = getattr(run.scores(scores.BLANK), name)
+    return SurfaceView(
+        name=name,
+        unit="points" if is_difference else "%",
+        values=values,
+        table=_percent(run, kind, objective, values),
+        targets=_percent(run, kind, objective, TARGETS),
+        blank=float("nan") if is_difference else 100.0 * blank,
+        is_difference=is_difference,
+    )
+
+
+def _percent(
+    run: Run, kind: Surface, objective: Objective, values: list[float]
+) -> FloatArray:
     if kind is Surface.SOURCE:
-        table = source_table(run, values, objective)
-    else:
-        table = compute.sweep(run, values).values(objective)
-    if kind is Surface.DIFFERENCE:
-        table = source_table(run, values, objective) - table
-    return SurfaceView(objective, kind, values, 100.0 * table)
+        return 100.0 * source_table(run, values, objective)
+    exact = 100.0 * compute.sweep(run, values).values(objective)
+    if kind is Surface.EXACT:
+        return exact
+    return 100.0 * source_table(run, values, objective) - exact
+
+
+def bits_view(run: Run, settings: Settings) -> SurfaceView:
+    """The log loss, always exact: it is smooth, so nothing is interpolated."""
+    values, region = _values(settings), run.settings.region
+    surface = run.mapped.loss_surface(run.settings.rule, region)
+    fine, coarse = (
+        [PRIOR_SCALE * value for value in axis] for axis in (values, TARGETS)
+    )
+    return SurfaceView(
+        name="bits per cell",
+        unit="bits",
+        values=values,
+        table=surface.bits(fine, fine),
+        targets=surface.bits(coarse, coarse),
+        blank=run.mapped.bits(scores.BLANK, run.settings.rule, region),
+        less_is_better=True,
+    )
+
+
+def _values(settings: Settings) -> list[float]:
+    source = settings.surface is Surface.SOURCE
+    return axis(float((Fineness.FIFTIETH if source else settings.fineness).value))
 
 
 def source_sweep(run: Run) -> PriorSweep:

@@ -3,69 +3,105 @@
 import streamlit as st
 
 from occsim import Objective, maxima, sample_names
-from occsim.priors import Maxima, ParetoFront
 from pages._ui import compute, controls, shell, state, words
-from pages._ui.choices import Drawings, Surface
-from pages._ui.priors import maps, surface_figures, surfaces
+from pages._ui.choices import CHOICES, Drawings, Surface
+from pages._ui.priors import (
+    front_words,
+    fronts,
+    maps,
+    marks,
+    scores,
+    surface_figures,
+    surfaces,
+)
+from pages._ui.priors.marks import MarkedPrior
+from pages._ui.priors.surfaces import SurfaceView
 from pages._ui.runs import Run
 from pages._ui.settings import with_changes
 
 CELLS = (3, 5, 10)
-
-
-def pairs(of: Maxima | ParetoFront) -> list[tuple[float, float]]:
-    """The prior pairs of maxima or of a front."""
-    return list(zip(of.p_wall.tolist(), of.p_space.tolist(), strict=True))
+EXTRA = {
+    Surface.SOURCE: {"best of the 10 × 10 pairs": "circle"},
+    Surface.EXACT: {"exact front": "circle"},
+}
+"""Marks of single views: name and symbol."""
 
 
 @shell.fragment
 def one_drawing(run: Run) -> None:
-    """Both surfaces of one drawing, and the map of the chosen pair."""
-    *charts, side = st.columns([4, 4, 4], gap="medium")
-    # The map first: after a click the user waits for it.
-    with side:
-        maps.chosen_map(run)
-        with st.container(horizontal=True):
-            controls.slider("p_wall", width=controls.NARROW_PX)
-            controls.slider("p_space", width=controls.NARROW_PX)
-    for column, objective in zip(charts, Objective, strict=True):
-        with column:
-            surface_chart(run, objective)
-
-
-def surface_chart(run: Run, objective: Objective) -> None:
-    """One surface; a click on it chooses a pair."""
+    """A row of surfaces for each rule, with the map of the chosen pair."""
     settings = state.settings()
-    view = surfaces.surface_view(run, settings, objective)
+    both = scores.both_rules(run)
+    rows = [surfaces.views(one, settings) for one in both]
+    ends = _ends(rows)
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        controls.slider("p_wall", width=controls.NARROW_PX)
+        controls.slider("p_space", width=controls.NARROW_PX)
+        marks.legend(EXTRA.get(settings.surface))
+    for one, views in zip(both, rows, strict=True):
+        marked = marks.marked(one)
+        values = words.maths(front_words.marks_text(marked))
+        st.markdown(f"**{CHOICES[one.settings.rule]}.** :small[{values}]")
+        *charts, side = st.columns(4, gap="small")
+        # The map first: after a click the user waits for it.
+        with side:
+            maps.chosen_map(one)
+        for column, view, scale in zip(charts, views, ends, strict=True):
+            with column:
+                _surface_chart(one, view, scale, marked)
+    if any(view.has_gaps for views in rows for view in views):
+        st.caption(f"Hatched: {surfaces.UNDEFINED}.")
+    for one, column in zip(both, st.columns(2, gap="large"), strict=True):
+        with column:
+            st.markdown(f"**The chosen pair: {CHOICES[one.settings.rule].lower()}**")
+            st.markdown(scores.table(one, state.prior()))
+    st.caption(scores.BITS)
+
+
+def _ends(rows: list[list[SurfaceView]]) -> list[tuple[float, float]]:
+    """One colour scale for each score, shared by all rows."""
+    return [surface_figures.colour_range(list(c)) for c in zip(*rows, strict=True)]
+
+
+def _surface_chart(
+    run: Run,
+    view: SurfaceView,
+    ends: tuple[float, float],
+    marked: list[MarkedPrior],
+) -> None:
+    """One surface; a click on it chooses a pair."""
+    objective = next((one for one in Objective if one.value == view.name), None)
+    kind = state.settings().surface if objective else None
+    dots = []
+    if kind is Surface.SOURCE:
+        dots = fronts.pairs_of(maxima(surfaces.source_sweep(run), objective))
+    elif kind is Surface.EXACT:
+        dots = fronts.pairs_of(run.front)
     figure = surface_figures.surface_figure(
-        view,
-        ends=surface_figures.colour_range([view]),
-        chosen=state.pair(),
-        best=pairs(maxima(surfaces.source_sweep(run), objective)),
-        front=pairs(run.front) if settings.surface is Surface.EXACT else None,
+        view, ends=ends, chosen=state.pair(), marked=marked, dots=dots
     )
-    key = f"surface_{objective.value}"
+    key = f"surface_{view.name}_{run.settings.rule.value}"
     st.plotly_chart(
         figure, config=controls.CHART_CONFIG, **state.bind_chart(key, of_pairs=True)
     )
-    if view.has_gaps:
-        st.caption(f"Hatched: {surfaces.UNDEFINED}.")
 
 
 def all_drawings() -> None:
     """The surfaces of the five reference drawings in rows, as in Fig. 4.5."""
     settings = state.settings()
     runs = {name: compute.reference_run(name, settings) for name in sample_names()}
-    rows = [
-        [surfaces.surface_view(run, settings, objective) for objective in Objective]
-        for run in runs.values()
-    ]
-    ends = [
-        surface_figures.colour_range(list(column)) for column in zip(*rows, strict=True)
-    ]
+    rows = [surfaces.views(run, settings) for run in runs.values()]
     picture, text = st.columns([3, 2], gap="large")
     with picture:
-        figure = surface_figures.rows_figure(rows, list(runs), ends, state.pair())
+        controls.radio("rule")
+        marks.legend()
+        figure = surface_figures.rows_figure(
+            rows,
+            list(runs),
+            _ends(rows),
+            [marks.marked(run) for run in runs.values()],
+            state.pair(),
+        )
         st.plotly_chart(figure, config=controls.CHART_CONFIG, key="surface_rows")
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:
@@ -91,48 +127,65 @@ def sizes(run: Run) -> None:
 
 def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
     """Where the source's 10 x 10 pairs are best, with all ties, as a table."""
-    lines = [words.maths(f"| {heading} | Score | Maximum | at (p_wall, p_space) |")]
-    lines.append("|---|---|---|---|")
+    lines = [
+        f"| {heading} | Score | Counted once | at | Taken off | at | Blank map |",
+        "|---|---|---:|---|---:|---|---:|",
+    ]
     for name, run in runs.items():
         for which in Objective:
-            best = maxima(surfaces.source_sweep(run), which)
-            value = words.percent(best.value)
-            lines.append(
-                f"| {name} | {which.value} | {value} | {words.ranges(best.text)} |"
-            )
+            sweeps = map(surfaces.source_sweep, scores.both_rules(run))
+            found = [maxima(sweep, which) for sweep in sweeps]
+            cells = [
+                f"{words.percent(best.value)} | {words.ranges(best.text)}"
+                for best in found
+            ]
+            blank = words.percent(getattr(run.scores(scores.BLANK), which.value))
+            lines.append(f"| {name} | {which.value} | {' | '.join(cells)} | {blank} |")
     st.markdown(f"**Maxima of the 10 × 10 pairs: {title}**")
     st.markdown("\n".join(lines))
+    where = words.maths("at which (p_wall, p_space)")
+    st.caption(
+        f"Each maximum, and {where} it lies, under both rules. "
+        "The source prints such tables without the blank map's value."
+    )
 
 
 def _see() -> str:
     """What the colours of this view mean, and how to use it."""
     settings = state.settings()
     if settings.surface is Surface.DIFFERENCE:
-        colours = (
+        said = (
             "Orange: the interpolated table promises less than the pair's own map has; "
-            "blue: it promises more."
+            "blue: it promises more. Of bits the values themselves are shown."
         )
     else:
-        colours = "Yellow is high, blue is low, each score on its own scale."
-    star = "The star is the source's choice, (0.2, 0.9)."
+        said = (
+            "Yellow is better, blue is worse; both rules share the scale of a score. "
+            "Within the line lie the pairs that are better than no drawing."
+        )
     if settings.drawings is Drawings.ALL:
-        return f"{colours} {star}"
-    return f"{colours} Point at a pair for its value, click it for its map. {star}"
+        return said
+    return f"{said} Point at a pair for its value, click it for its map."
 
 
 def explain(run: Run) -> None:
     """What to see, to predict and why, of the view that is shown."""
     st.markdown(f"**See.** {_see()}")
     st.markdown(
-        "**Predict**, then switch to *Exact*. Is the true surface as smooth as the "
-        "interpolated one?"
+        "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
+        "Under which rule does the area within the line change more?"
     )
-    with st.expander("And then?"):
+    if state.settings().surface is Surface.EXACT:
         st.markdown(
-            "It has steps: a cell turns from free to occupied at one value of its "
-            "prior, and between two such values nothing changes. The source scored "
-            "100 pairs and drew straight lines between them; *Difference* shows how "
-            "far off these are."
+            "**Why steps?** A cell turns from free to occupied at one value of its "
+            "prior, and between two such values nothing changes. Bits see every "
+            "change of a probability, so their surface is smooth."
+        )
+    else:
+        st.markdown(
+            "**Why interpolated?** The source scored 100 pairs and drew straight lines "
+            "between them. *Exact* shows the true surface, *Difference* how far off "
+            "the lines are. Bits are always exact."
         )
     st.markdown(
         "**Why so fast?** What a reading says does not depend on the prior, so the "

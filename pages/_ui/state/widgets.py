@@ -94,7 +94,7 @@ def _take_click(key: str, of_pairs: bool) -> None:
     clicked = st.session_state.setdefault("clicked", {})
     for point in (value(key) or {}).get("selection", {}).get("points", ()):
         place = (point["y"], point["x"]) if of_pairs else None
-        clicked[key] = point.get("customdata") or place
+        clicked[key] = place or point.get("customdata")
     # A second click on a point clears the selection; the pair stays chosen.
     if clicked.get(key):
         attempt(lambda: choose_pair(*clicked[key]))
