@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 
 from occsim import __version__
-from occsim.cli import study
+from occsim.cli import claims, study
 from occsim.errors import OccsimError
 
 PROG = "occsim"
@@ -59,4 +59,5 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"{PROG} {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
     study.add_command(commands)
+    claims.add_command(commands)
     return parser

@@ -43,13 +43,14 @@ def case_settings(
         "format": FORMAT,
         "version": VERSION,
         "software": software(),
-        **_mapped(drawing),
+        **mapped_values(drawing),
         "cell_px": cell_px,
         "settings": plain(settings),
     }
 
 
-def _mapped(drawing: Building) -> Document:
+def mapped_values(drawing: Building) -> Document:
+    """Return which building was mapped, and by which sensor, as plain values."""
     return {
         "drawing": {
             "name": drawing.name,
@@ -88,7 +89,7 @@ def study_document(
     case = run_case(drawing, cell_px, settings)
     sweep, front = case.sweep, case.front
     bounds = front.rectangles
-    return _mapped(drawing) | {
+    return mapped_values(drawing) | {
         "sweep": {name: getattr(sweep, name).tolist() for name in _COUNTS}
         | {"p_wall": sweep.p_wall.tolist(), "p_space": sweep.p_space.tolist()},
         "front": {name: getattr(front, name).tolist() for name in _POINTS}
