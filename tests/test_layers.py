@@ -34,6 +34,7 @@ ORDER = [
     {"io"},
     {"samples"},
     {"study"},
+    {"exercises"},
     {"cli"},
     {"__init__"},
     {"__main__"},

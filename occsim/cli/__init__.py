@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 
 from occsim import __version__
-from occsim.cli import claims, study
+from occsim.cli import claims, exercises, study
 from occsim.errors import OccsimError
 
 PROG = "occsim"
@@ -23,13 +23,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0; 2 after a message on bad input, or where no drawing gave a
-        result; 128 plus the signal's number for a command that was interrupted or
-        whose output pipe was closed.
+        Exit status: 0; 1 where an exercise is refused; 2 after a message on bad input,
+        or where no drawing gave a result; 128 plus the signal's number for a command
+        that was interrupted or whose output pipe was closed.
     """
     options = _parser().parse_args(arguments)
     try:
-        options.run(options)
+        return options.run(options) or 0
     except BrokenPipeError:
         # The reader closed the pipe (``| head``): no error. Python flushes its buffer
         # at exit; without a valid file it would print an error.
@@ -42,7 +42,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\nStopped; run the same command again to continue.", file=sys.stderr)
         return 130
-    return 0
 
 
 def _refuse(sentence: str) -> int:
@@ -60,4 +59,5 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True)
     study.add_command(commands)
     claims.add_command(commands)
+    exercises.add_command(commands)
     return parser

@@ -1,0 +1,26 @@
+"""Exercises: a grammar of checks, proofs that each can be solved, and judging.
+
+An exercise is a TOML file. It is refused when it is read if its check holds already at
+its set-up, does not hold at its witness, or holds at its wrong answer.
+"""
+
+from occsim.exercises.exercise import Check, Exercise, Question, Verdict, judge
+from occsim.exercises.facts import Context, Facts
+from occsim.exercises.lens import lens_world
+from occsim.exercises.load import load_exercise, load_exercises
+from occsim.exercises.state import ExerciseState, changed
+
+__all__ = [
+    "Check",
+    "Context",
+    "Exercise",
+    "ExerciseState",
+    "Facts",
+    "Question",
+    "Verdict",
+    "changed",
+    "judge",
+    "lens_world",
+    "load_exercise",
+    "load_exercises",
+]
