@@ -3,19 +3,20 @@
 import streamlit as st
 
 from pages._ui import controls, shell, state, uploads
+from pages._ui.choices import SECTIONS
 from pages._ui.your_building import drawing, keep, masks, scale, trajectory, walls
 
-SECTIONS = {
-    "1 Drawing": drawing.show,
-    "2 Scale": scale.show,
-    "3 Walls": walls.show,
-    "4 Corrections": masks.correct,
-    "5 Ground truth": masks.truth,
-    "6 Trajectory": trajectory.show,
-    "7 Keep": keep.show,
-}
+SHOW = (
+    drawing.show,
+    scale.show,
+    walls.show,
+    masks.correct,
+    masks.truth,
+    trajectory.show,
+    keep.show,
+)
 
-with shell.page("pages/2_Your_building.py") as lesson:
+with shell.page(state.YOUR_BUILDING) as lesson:
     shell.heading(lesson)
     shown = state.choice(), state.can_undo(), state.can_redo()
 
@@ -26,14 +27,14 @@ with shell.page("pages/2_Your_building.py") as lesson:
             st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
         section = st.segmented_control(
             "Section",
-            list(SECTIONS),
+            SECTIONS,
             required=True,
             label_visibility="collapsed",
-            **state.bind_view("section", "1 Drawing"),
+            **state.bind_view("section", SECTIONS[0]),
         )
 
     notices = st.container()
-    SECTIONS[section]()
+    SHOW[SECTIONS.index(section)]()
     with notices:
         # At the end, so that they speak of what the section has just changed.
         if state.message():

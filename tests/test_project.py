@@ -312,7 +312,7 @@ HOSTILE = {
     "damaged lzma": (damaged(zipfile.ZIP_LZMA), "cannot be opened"),
     "a wide image": (
         archive_with(dict.fromkeys((DRAWING, FOUND, CORRECTIONS, WALLS, TRUTH), WIDE)),
-        "each side of a drawing",
+        "each side of walls_found.png must lie between",
     ),
     "no png": (archive_with({DRAWING: b"GIF89a"}), "must be a PNG image"),
     "a damaged image": (

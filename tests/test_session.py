@@ -219,6 +219,21 @@ def test_an_edit_that_was_cut_short_is_done_in_the_next_run(session):
     assert (session.choice, session.own) == (state.OPENING, None)
 
 
+def test_the_section_of_your_building_is_in_its_link_only(session):
+    session.views = {"section": "3 Walls"}
+    assert "section" not in state.query()
+    session.path = state.YOUR_BUILDING
+    assert state.query()["section"] == "3"
+    session.views = {"section": "1 Drawing"}
+    assert "section" not in state.query()
+
+
+@pytest.mark.parametrize(("number", "shown"), [("6", "6 Trajectory"), ("9", None)])
+def test_a_link_opens_its_section(number, shown):
+    app = opened(YOURS, section=number)
+    assert app.session_state["view_section"] == (shown or "1 Drawing")
+
+
 # --- Defaults and links ---------------------------------------------------------------
 
 

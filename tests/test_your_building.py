@@ -411,12 +411,31 @@ def test_a_bad_project_is_answered_in_one_sentence_and_loses_nothing(kind):
     assert app.session_state["settings"] is settings
 
 
+def test_a_file_in_metres_is_placed_by_the_scale_and_the_page_says_where():
+    """1 m right of the corner and 2 m above it, at 0.05 m per px, 160 px high."""
+    app = at("2 Scale", with_rooms())
+    app = commit(app, "board_door", points=[[10, 20, 1], [28, 20, 1]])  # 0.9 m
+    app = at("6 Trajectory", app, way="Files")
+    app = upload(app, "Trajectory", "log.tum", b"1.0 1 2 0 0 0 0 1\n", "any/any")
+    assert not app.error
+    x_px, y_px, _ = own(app).trajectory.poses[0]
+    assert (x_px, y_px) == pytest.approx((20.0, own(app).drawing.shape[0] - 40.0))
+    assert any("in metres" in one.value and "0.05 m" in one.value for one in app.info)
+    app = upload(app, "Trajectory", "log.csv", POSES, "any/any")
+    assert not any("in metres" in one.value for one in app.info)
+
+
 BAD_FILES = {
     ("1 Drawing", "Drawing", "empty.png"): b"",
     ("1 Drawing", "Drawing", "words.pdf"): b"no PDF at all",
     ("1 Drawing", "Drawing", "cut.pdf"): b"%PDF-1.4\n1 0 obj",
     ("1 Drawing", "Drawing", "cut.png"): png(rooms())[:300],
+    ("1 Drawing", "Drawing", "map.yaml"): b"image: a.pgm\nresolution: 0.05\n",
+    ("1 Drawing", "Drawing", "scans.log"): b"FLASER 2 1.0 2.0 0 0 0 0 0 0 1 h 1\n",
+    ("1 Drawing", "Drawing", "scans.bag"): b"#ROSBAG V2.0\n" + bytes(100),
     ("5 Ground truth", "Ground truth", "small.png"): png(rooms(80, 90)),
+    ("6 Trajectory", "Trajectory", "map.pgm"): b"P5 2 2 255\n" + bytes(4),
+    ("6 Trajectory", "Trajectory", "scans.bag"): b"#ROSBAG V2.0\n" + bytes(100),
     ("6 Trajectory", "Trajectory", "words.csv"): b"x,y,theta\na,b,c\n",
     ("6 Trajectory", "Trajectory", "pickle.npy"): b"\x93NUMPY\x01\x00",
     ("6 Trajectory", "Trajectory", "bad.mat"): b"MATLAB 5.0 MAT-file, cut",
@@ -433,6 +452,7 @@ def test_a_bad_file_is_answered_in_one_sentence_and_loses_nothing(case):
     app = upload(app, label, name, BAD_FILES[case], "any/any")
     assert len(app.error) == 1
     assert "\n" not in app.error[0].value
+    assert name in app.error[0].value.replace("\\", "")
     assert own(app) is kept
 
 

@@ -33,7 +33,7 @@ def read_drawing_file(
     """Return the content of a drawing's file, of any format, and what to call it."""
     data, file_name = read_source(
         source,
-        what="drawing",
+        what=printable(name or "drawing"),
         needed=f"an image in {ALLOWED_FORMATS}",
         max_bytes=MAX_FILE_BYTES,
         error=DrawingError,

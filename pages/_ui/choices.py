@@ -6,6 +6,17 @@ from enum import Enum
 from occsim import BehindHit, Region, UpdateRule
 from occsim.priors import Elitism
 
+SECTIONS = (
+    "1 Drawing",
+    "2 Scale",
+    "3 Walls",
+    "4 Corrections",
+    "5 Ground truth",
+    "6 Trajectory",
+    "7 Keep",
+)
+"""The sections of the page Your building; a link gives the number."""
+
 
 class Overlay(Enum):
     """What the player draws over the map."""

@@ -10,15 +10,14 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import Trajectory, load_drawing
+from occsim import OccsimError, Trajectory, load_drawing
+from occsim._files import printable
 from occsim.building import truth_from_image
 from occsim.imaging import Drawing, is_pdf, load_pdf_page, pdf_page_count
 from occsim.io.metric import MetricFrame
 from occsim.io.trajectories import read_trajectory_table
 from pages._ui import compute, state
 
-IMAGE_TYPES = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif", "pgm", "pdf"]
-TRAJECTORY_TYPES = ["csv", "txt", "npy", "mat", "json", "tum"]
 MAX_UPLOAD_MB = 40
 UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
@@ -41,9 +40,7 @@ def panel() -> None:
 
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
-    _uploader(
-        "Drawing", key, IMAGE_TYPES, _map_drawing, "Image or PDF; scans of any size."
-    )
+    _uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
         st.number_input(
@@ -59,7 +56,6 @@ def truth(key: str) -> None:
     _uploader(
         "Ground truth",
         _of_this_drawing(key),
-        IMAGE_TYPES,
         _use_truth,
         "An image of the drawing's size: black is wall, white is free. Without one the "
         "wall mask serves as the world.",
@@ -72,10 +68,10 @@ def trajectory(key: str) -> None:
     _uploader(
         "Trajectory",
         key,
-        TRAJECTORY_TYPES,
         _use_trajectory,
         "CSV, text, NPY, MAT, JSON or TUM: x, y, theta in each row, x and y in pixels.",
     )
+    _say_metres()
     st.radio(
         "Angles in the file",
         list(UNITS),
@@ -89,12 +85,11 @@ def _of_this_drawing(key: str) -> str:
     return f"{key}_{state.choice()}_{state.view(DRAWINGS, 0)}"
 
 
-def _uploader(
-    label: str, key: str, types: list[str], use: Callable[[Any], None], about: str
-) -> Any:
+def _uploader(label: str, key: str, use: Callable[[Any], None], about: str) -> Any:
+    # Of any type: the browser would refuse others without saying what they are, and
+    # what to do with them.
     return st.file_uploader(
         label,
-        types,
         key=key,
         help=about,
         on_change=_take,
@@ -107,7 +102,18 @@ def _take(key: str, use: Callable[[Any], None]) -> None:
     """Use the file that was put into an uploader, if one is there."""
     file = state.value(key)
     if file is not None:
-        state.edit(partial(use, file))
+        state.edit(partial(_use, file, use))
+
+
+def _use(file: Any, use: Callable[[Any], None]) -> None:
+    """Use a file; a refusal names it."""
+    try:
+        use(file)
+    except OccsimError as error:
+        name = printable(file.name)
+        if name in str(error):
+            raise
+        raise type(error)(f"{name} cannot be used: {error}") from None
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +181,7 @@ class PoseFile:
     name: str
     data: bytes
     trajectory: Trajectory
+    metres: bool = False
 
 
 def _use_trajectory(file: Any) -> None:
@@ -193,7 +200,21 @@ def _read_poses() -> None:
     frame = _frame() if table.metres else None
     trajectory = table.to_trajectory(unit, frame)
     state.edit_building(trajectory=trajectory)
-    state.set_view(POSES, replace(file, trajectory=trajectory))
+    state.set_view(POSES, replace(file, trajectory=trajectory, metres=table.metres))
+
+
+def _say_metres() -> None:
+    """Say where a file in metres was placed: the file does not say it."""
+    file = state.view(POSES, None)
+    building = state.building()
+    if file is None or not file.metres or file.trajectory is not building.trajectory:
+        return
+    st.info(
+        "The positions of this file are in metres. They were placed with the scale of "
+        f"the drawing, {building.metres_per_px:.4g} m per pixel, y up, and the "
+        "drawing's lower left corner at x = 0, y = 0. If that is not where the file's "
+        "zero lies, give the file in pixels (columns x_px, y_px)."
+    )
 
 
 def _frame() -> MetricFrame | None:

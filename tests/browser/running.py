@@ -25,7 +25,7 @@ CHROMIUM_ARGS = [
 ]
 
 
-def _free_port() -> int:
+def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
@@ -40,9 +40,11 @@ def _is_up(url: str) -> bool:
 
 
 @contextmanager
-def running_app(log_path: Path, script: str = "app.py") -> Iterator[str]:
+def running_app(
+    log_path: Path, script: str = "app.py", port: int | None = None
+) -> Iterator[str]:
     """Start the app as the README does, on a free port; give its address."""
-    port = _free_port()
+    port = port or free_port()
     url = f"http://localhost:{port}"
     command = [sys.executable, "-m", "streamlit", "run", script]
     options = ["--server.port", str(port), "--server.headless", "true"]

@@ -110,7 +110,8 @@ test("unless one was chosen, the speed makes a replay last about ten seconds", (
   assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 40), 5);
   assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 420), 30);
   assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 5000), 120);
-  assert.equal(playerOf({ speed: null }).state.speed, 5);
+  assert.equal(player.speedOf(playerOf({ speed: null })), 5);
+  assert.equal(playerOf({ speed: null }).state.speed, null);
 });
 
 // ---- choices restored over other data: 5 x 6 cells of 3 px ------------------------------

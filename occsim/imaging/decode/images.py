@@ -85,7 +85,7 @@ def decode_image(
     """
     try:
         image = Image.open(io.BytesIO(data), formats=PILLOW_FORMATS)
-        wanted = _wanted(image, max_side_px)
+        wanted = _wanted(image, name, max_side_px)
         image.load()
         levels = _Levels(image)
         orientation = int(image.getexif().get(_ORIENTATION, 1))
@@ -103,17 +103,19 @@ def decode_image(
     )
 
 
-def _wanted(image: ImageFile.ImageFile, max_side_px: int | None) -> tuple[int, int]:
+def _wanted(
+    image: ImageFile.ImageFile, name: str, max_side_px: int | None
+) -> tuple[int, int]:
     """Return the size of the result, once it is known that the image can be decoded."""
     wanted = reduced_size(*image.size, max_side_px)
-    check_size(*image.size, max_pixels=None)
-    check_size(*wanted)
+    check_size(name, *image.size, max_pixels=None)
+    check_size(name, *wanted)
     scale = 1
     while _decoded_bytes(image, scale) > MAX_DECODED_BYTES:
         scale *= 2
         if image.format != "JPEG" or max(image.size) // scale < max(wanted):
             raise Refused(
-                f"decoding {image.width:,} x {image.height:,} px of this kind takes "
+                f"decoding {name}, {image.width:,} x {image.height:,} px, takes "
                 f"{_decoded_bytes(image) / 1e6:.0f} MB; at most "
                 f"{MAX_DECODED_BYTES / 1e6:.0f} MB are allowed"
             )

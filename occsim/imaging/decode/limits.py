@@ -32,13 +32,17 @@ class Refused(ValueError):
     """A file is refused; the text is one sentence for the user."""
 
 
-def check_size(width: int, height: int, max_pixels: int | None = MAX_PIXELS) -> None:
+def check_size(
+    name: str, width: int, height: int, max_pixels: int | None = MAX_PIXELS
+) -> None:
     """Refuse sizes that are too small, too large or too narrow.
 
     Parameters
     ----------
+    name : str
+        What to call the drawing.
     width, height : int
-        Of the drawing, px.
+        Its size, px.
     max_pixels : int or None, default MAX_PIXELS
         Most that it may have; None for any number.
 
@@ -48,16 +52,16 @@ def check_size(width: int, height: int, max_pixels: int | None = MAX_PIXELS) -> 
     """
     if min(width, height) < MIN_SIDE_PX or max(width, height) > MAX_SIDE_PX:
         raise Refused(
-            f"each side of a drawing must lie between {MIN_SIDE_PX} and "
+            f"each side of {name} must lie between {MIN_SIDE_PX} and "
             f"{MAX_SIDE_PX:,} px; got {width:,} x {height:,} px"
         )
     if max(width, height) > MAX_ASPECT * min(width, height):
         raise Refused(
-            f"a drawing may be at most {MAX_ASPECT} times as long as it is wide; "
+            f"{name} may be at most {MAX_ASPECT} times as long as it is wide; "
             f"got {width:,} x {height:,} px"
         )
     if max_pixels is not None and width * height > max_pixels:
         raise Refused(
-            f"a drawing may have at most {max_pixels / 1e6:.0f} megapixels; "
+            f"{name} may have at most {max_pixels / 1e6:.0f} megapixels; "
             f"got {width:,} x {height:,} px, {width * height / 1e6:.1f} megapixels"
         )

@@ -62,7 +62,7 @@ def render_page(data: bytes, name: str, page: int, long_side_px: int) -> Picture
         sheet = document[page - 1]
         width_pt, height_pt = sheet.get_size()
         scale = long_side_px / max(width_pt, height_pt, 1e-6)
-        check_size(math.ceil(width_pt * scale), math.ceil(height_pt * scale))
+        check_size(name, math.ceil(width_pt * scale), math.ceil(height_pt * scale))
         # Three bytes a px from the start: nothing is converted or copied.
         rgb = sheet.render(scale=scale, rev_byteorder=True).to_numpy()[:, :, :3]
         height, width, _ = rgb.shape

@@ -95,7 +95,7 @@ def read_trajectory_table(
     """
     data, file_name = read_source(
         source,
-        what="trajectory",
+        what=printable(name or "trajectory"),
         needed="a table of x, y, theta",
         max_bytes=MAX_FILE_BYTES,
         error=TrajectoryError,

@@ -8,6 +8,7 @@ to the components on the page. Everything else is computed from these.
 from pages._ui.state.chosen import (
     OPENING,
     OWN,
+    YOUR_BUILDING,
     building,
     change,
     choice,
@@ -67,6 +68,7 @@ __all__ = [
     "OPENING",
     "OWN",
     "PLAYER_KEY",
+    "YOUR_BUILDING",
     "attempt",
     "bind",
     "bind_chart",

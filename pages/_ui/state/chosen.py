@@ -9,6 +9,7 @@ import streamlit as st
 from occsim import load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
+from pages._ui.choices import SECTIONS
 from pages._ui.components.player import SHARED, PlayerDocument
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
 from pages._ui.state.replay import (
@@ -20,6 +21,8 @@ from pages._ui.state.replay import (
 from pages._ui.state.works import WORKS
 
 OWN = "own"
+YOUR_BUILDING = "pages/2_Your_building.py"
+SECTION_NUMBERS = [str(number) for number in range(1, len(SECTIONS) + 1)]
 OPENING = "b"
 """The drawing that the app opens with: parts of furniture are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
@@ -63,6 +66,8 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state.played = PlayerDocument()
     open_half_way(building())
     go_to_place(query)
+    if query.get("section", "") in SECTION_NUMBERS:
+        state.views = {"section": SECTIONS[int(query["section"]) - 1]}
     if wrong:
         notices.append(
             f"The link gives no usable value for {', '.join(wrong)}; the defaults "
@@ -122,8 +127,15 @@ def query() -> dict[str, str]:
     key = work_key()
     if key is not None:
         where["work"] = key
-    place = place_in_replay(building())
+    place = place_in_replay(building()) | _section()
     return where | encode(settings(), defaults(name)) | place
+
+
+def _section() -> dict[str, str]:
+    """The section that is shown, on the page that has some; the first is left out."""
+    shown = st.session_state.get("views", {}).get("section", SECTIONS[0])
+    is_there = st.session_state.get("path") == YOUR_BUILDING and shown != SECTIONS[0]
+    return {"section": str(SECTIONS.index(shown) + 1)} if is_there else {}
 
 
 def work_key() -> str | None:

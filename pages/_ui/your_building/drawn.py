@@ -13,7 +13,7 @@ from pages._ui.components.board import (
 )
 from pages._ui.state import boards as kept
 
-HEIGHT_PX = 520
+HEIGHT_PX = 480
 """Height that lets the board and the controls above it fit in 720 px."""
 
 

@@ -28,6 +28,11 @@ function usualSpeed(speeds, nReadings) {
   return speeds.reduce((best, speed) => (away(speed) < away(best) ? speed : best));
 }
 
+// The state holds a speed only where one was chosen: only that belongs in a link.
+function speedOf(p) {
+  return p.state.speed ?? usualSpeed(p.header.speeds, p.model.nReadings);
+}
+
 function play(p) {
   if (p.playing || !p.model) return;
   if (p.state.step >= p.model.nReadings) goTo(p, 0);
@@ -46,7 +51,8 @@ function play(p) {
 
 // The position counts readings, with a fraction; past the end it counts the pause.
 function advance(p, seconds) {
-  const { speed, compact } = p.state;
+  const { compact } = p.state;
+  const speed = speedOf(p);
   const last = p.model.nReadings;
   p.position += seconds * speed;
   goTo(p, Math.floor(p.position), p.position);

@@ -153,16 +153,15 @@ function adopted({ key, digest, document }, current) {
 
 // Makes the choices fit the replay: they may have been made on another one.
 function fitState(p) {
-  const { state, model, header } = p;
+  const { state, model } = p;
   state.step = clamp(state.step, 0, model.nReadings);
-  state.speed ??= usualSpeed(header.speeds, model.nReadings);
   p.pin = state.pin_px && cellHolding(model, ...state.pin_px);
   if (p.pin === null) state.pin_px = null;
   if (p.pin !== null) p.tab = "cell";
   p.position = state.step;
   seek(model, state.step);
   partOf(p.root, "scrub").max = model.nReadings;
-  partOf(p.root, "speed").value = state.speed;
+  partOf(p.root, "speed").value = speedOf(p);
 }
 
 function retheme(p) {
