@@ -28,8 +28,7 @@ SHORT = {
 def one_drawing(run: Run) -> None:
     """Both fronts, their pairs, the chosen pair's maps; then the ends of each front."""
     both = scores.both_rules(run)
-    marks.legend()
-    chart, space, side = st.columns([5, 4, 3], gap="medium")
+    chart, space, side = st.columns([6, 5, 3], gap="medium")
     # The maps first: after a click the user waits for them.
     with side:
         _chosen_maps(both)
@@ -70,12 +69,13 @@ def _as_found(run: Run) -> list[Run]:
 
 def _ghost(found: Run) -> Drawn:
     color, dash, symbol = LOOKS[found.settings.rule]
-    return Drawn("the same, drawing as it is", found.front, color, dash, symbol, size=0)
+    name = f"{SHORT[found.settings.rule]}, drawing as it is"
+    return Drawn(name, found.front, color, dash, symbol, size=0)
 
 
 def _drawn(run: Run) -> Drawn:
     color, dash, symbol = LOOKS[run.settings.rule]
-    name = f"drawing {SHORT[run.settings.rule]}"
+    name = SHORT[run.settings.rule]
     found = [_mark(run, one.prior, one.name, one.symbol) for one in marks.marked(run)]
     found.append(_mark(run, state.prior(), "chosen", marks.SYMBOLS["chosen"]))
     return Drawn(name, run.front, color, dash, symbol, marks=tuple(found))
@@ -85,7 +85,7 @@ def _mark(run: Run, prior: Prior, name: str, symbol: str) -> Mark:
     """A map of one rule; the blank one is the same under both."""
     at, is_blank = run.scores(prior), prior == scores.BLANK
     color = palette.UNSEEN if is_blank else LOOKS[run.settings.rule][0]
-    full = name if is_blank else f"{name}, drawing {SHORT[run.settings.rule]}"
+    full = name if is_blank else f"{name}, {SHORT[run.settings.rule]}"
     pair = None if is_blank else state.nearest_pair(prior)
     fixed = name in (marks.CALIBRATED, marks.IN_BITS)
     return Mark(full, at.precision, at.recall, symbol, color, pair, not fixed)

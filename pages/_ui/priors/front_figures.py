@@ -202,7 +202,7 @@ def mark_trace(mark: Mark, axes: FrontAxes, ends: list[Pair]) -> go.Scatter:
         customdata=None if mark.pair is None else [list(mark.pair)],
         mode="markers+text" if beyond else "markers",
         text=[label],
-        textposition="middle right",
+        textposition="middle left" if x == ends[0][1] else "middle right",
         textfont={"size": 11},
         name=mark.name,
         marker=marker,
