@@ -26,7 +26,9 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
         controls.thinning()
         if state.settings().drawings is Drawings.ALL:
             controls.select("rule", width=190)
-        marks.legend(sweeping.EXTRA.get(state.settings().surface))
+            marks.legend()
+        else:
+            marks.legend(sweeping.EXTRA.get(state.settings().surface))
 
     run = compute.run(state.building(), state.settings())
     if run.notice:

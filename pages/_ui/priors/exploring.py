@@ -35,7 +35,9 @@ def one_drawing(run: Run) -> None:
     drawn = [_drawn(one) for one in both]
     found = _as_found(run)
     with chart:
-        _front_chart([*map(_ghost, found), *drawn])
+        pale = " (pale: drawing as it is)" if found else ""
+        title = f"Pareto front under each rule{pale}"
+        _front_chart([*map(_ghost, found), *drawn], title)
     with space:
         _prior_space(both, drawn)
     _choices()
@@ -91,13 +93,13 @@ def _mark(run: Run, prior: Prior, name: str, symbol: str) -> Mark:
     return Mark(full, at.precision, at.recall, symbol, color, pair, not fixed)
 
 
-def _front_chart(drawn: list[Drawn]) -> None:
+def _front_chart(drawn: list[Drawn], title: str) -> None:
     settings = state.settings()
     figure = front_figures.fronts_figure(
         drawn,
         settings.axes,
         settings.min_recall,
-        "Pareto front under each rule",
+        title,
         "front",
     )
     st.plotly_chart(
@@ -225,8 +227,8 @@ def explain() -> None:
         )
     with tell:
         st.markdown(
-            "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
-            "Which front gets more points, and what does each point give up?"
+            "**Predict**, then press *Thin walls by 2 px*. Which front gets more "
+            "points, and what does each point give up?"
         )
         with st.expander("And then?"):
             st.markdown(

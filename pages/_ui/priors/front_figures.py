@@ -141,6 +141,7 @@ def front_steps(drawn: Drawn, axes: FrontAxes) -> go.Scatter:
         name=drawn.name,
         hoverinfo="skip",
         opacity=0.8 if drawn.size else 0.5,
+        showlegend=drawn.size > 0,
     )
 
 

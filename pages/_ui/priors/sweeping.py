@@ -162,7 +162,7 @@ def _see() -> str:
         )
     else:
         said = (
-            "Yellow is better, blue is worse; both rules share the scale of a score. "
+            "Yellow is better, blue is worse; the surfaces of a score share its scale. "
             "Within the line lie the pairs that are better than no drawing."
         )
     if settings.drawings is Drawings.ALL:
@@ -174,8 +174,8 @@ def explain(run: Run) -> None:
     """What to see, to predict and why, of the view that is shown."""
     st.markdown(f"**See.** {_see()}")
     st.markdown(
-        "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
-        "Under which rule does the area within the line change more?"
+        "**Predict**, then press *Thin walls by 2 px*. Under which rule does the area "
+        "within the line change more?"
     )
     if state.settings().surface is Surface.EXACT:
         st.markdown(
