@@ -126,7 +126,15 @@ def test_the_best_pair_in_bits_loses_least_of_all_pairs(run):
 def test_a_mark_beyond_the_axes_stands_at_their_end_with_its_own_values(run):
     for mark in marks.marked(run):
         assert all(marks.LOW <= value <= marks.HIGH for value in mark.pair)
-        assert f"{mark.prior.p_free_space:.3g}" in mark.text
+        assert mark.text.endswith(f" {marks.shown(mark.prior.p_free_space)}")
+
+
+@pytest.mark.parametrize(
+    ("p_free", "text"),
+    [(1e-6, "below 0.001"), (0.18, "0.18"), (0.9, "0.9"), (0.9996, "above 0.999")],
+)
+def test_no_probability_is_shown_as_certain(p_free, text):
+    assert marks.shown(p_free) == text
 
 
 def test_the_line_borders_the_pairs_that_beat_the_blank_map(run):

@@ -137,7 +137,8 @@ def front_steps(drawn: Drawn, axes: FrontAxes) -> go.Scatter:
         # A front of one point has no border; its symbol stands in the legend.
         mode="lines" if len(drawn.front) > 1 else "lines+markers",
         line=line,
-        marker={"symbol": drawn.symbol, "size": drawn.size or 5},
+        marker={"symbol": drawn.symbol, "size": drawn.size or 8},
+        cliponaxis=False,
         name=drawn.name,
         hoverinfo="skip",
         opacity=0.8 if drawn.size else 0.5,
