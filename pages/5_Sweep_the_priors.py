@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Drawings, Surface
-from pages._ui.priors import sweeping
+from pages._ui.priors import marks, sweeping
 
 with shell.page("pages/5_Sweep_the_priors.py") as lesson:
     shell.heading(lesson)
@@ -14,7 +14,6 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
         controls.segments("surface")
         controls.segments("drawings")
         controls.drawing_errors()
-        controls.thinning()
         with st.popover("More settings"):
             if state.settings().surface is not Surface.SOURCE:
                 controls.select("fineness")
@@ -22,6 +21,14 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
                 controls.radio(name)
             for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
                 controls.slider(name)
+
+    with st.container(horizontal=True, vertical_alignment="center"):
+        controls.thinning()
+        if state.settings().drawings is Drawings.ALL:
+            controls.select("rule", width=190)
+            marks.legend()
+        else:
+            marks.legend(sweeping.EXTRA.get(state.settings().surface))
 
     run = compute.run(state.building(), state.settings())
     if run.notice:

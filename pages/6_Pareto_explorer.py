@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Exploring
-from pages._ui.priors import comparing, exploring, searching
+from pages._ui.priors import comparing, exploring, marks, searching
 
 with shell.page("pages/6_Pareto_explorer.py") as lesson:
     shell.heading(lesson)
@@ -12,15 +12,19 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.segments("exploring")
-        if state.settings().exploring is not Exploring.ONE:
-            controls.select("rule", width=190)
         controls.drawing_errors()
-        controls.thinning()
         with st.popover("More settings"):
             for name in ("behind_hit", "region"):
                 controls.radio(name)
             for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
                 controls.slider(name)
+
+    with st.container(horizontal=True, vertical_alignment="center"):
+        controls.thinning()
+        if state.settings().exploring is not Exploring.ONE:
+            controls.select("rule", width=190)
+        if state.settings().exploring is not Exploring.SEARCH:
+            marks.legend()
 
     run = compute.run(state.building(), state.settings())
     if run.notice:

@@ -35,7 +35,15 @@ from pages._ui.choices import (
     Picture,
     Surface,
 )
-from pages._ui.priors import fronts, maps, reliability, surface_figures, surfaces
+from pages._ui.priors import (
+    front_figures,
+    fronts,
+    maps,
+    reliability,
+    search_figures,
+    surface_figures,
+    surfaces,
+)
 from pages._ui.settings import Settings, encode, with_changes
 from pages._ui.words import percent
 from tests.test_pages import ROOT, control, png, said
@@ -163,6 +171,17 @@ def test_a_front_of_one_point_is_reported():
         EXPLORER, Settings(range_px=20, cell_px=4), prior_wall=True, true_wall=True
     )
     assert "attains the highest precision and the highest recall of all" in texts(app)
+
+
+@pytest.mark.parametrize("page", [SWEEP, EXPLORER])
+def test_walls_are_thinned_and_restored_by_one_button(page):
+    app = press(open_with(page, cell_px=10), "Thin walls by 2 px")
+    assert setting(app, "thickness_px") == -2
+    has_fronts = page == EXPLORER
+    assert ("With the drawing as it is, this front has" in texts(app)) == has_fronts
+    app = press(app, "Drawing as it is")
+    assert setting(app, "thickness_px") == 0
+    assert "With the drawing as it is" not in texts(app)
 
 
 def test_an_empty_set_c_is_reported():
@@ -463,6 +482,37 @@ def test_a_point_of_the_front_is_nearest_to_itself(run_b):
         scores = run_b.scores(Prior(p_wall=pair[0], p_space=pair[1]))
         assert fronts.nearest(run_b.front, scores) == i
         assert fronts.distance(run_b.front, scores) == 0.0
+
+
+@pytest.mark.parametrize("axes", FrontAxes)
+def test_recall_is_to_the_right_and_nothing_lies_beyond_perfect_scores(run_b, axes):
+    figure = front_figures.front_figure(run_b.front, axes, [], 0.4)
+    x, y = (figure.layout[name] for name in ("xaxis", "yaxis"))
+    assert "recall" in x.title.text
+    assert "precision" in y.title.text
+    for axis in (x, y):
+        low, high = axis.range
+        if axes is FrontAxes.SCORES:
+            assert 0.0 <= low < high <= 100.0
+        else:
+            assert 1.0 <= low < high
+
+
+def test_a_mark_that_does_not_set_the_axes_stands_at_the_border_with_its_scores(run_b):
+    far = front_figures.Mark("calibrated", 0.02, 0.03, "diamond", sets_axes=False)
+    figure = front_figures.front_figure(run_b.front, FrontAxes.SCORES, [far], 0.4)
+    (trace,) = (one for one in figure.data if one.name == "calibrated")
+    assert (trace.x[0], trace.y[0]) == (
+        figure.layout.xaxis.range[0],
+        figure.layout.yaxis.range[0],
+    )
+    assert trace.text[0] == "calibrated: 2 %, 3 %"
+
+
+def test_before_a_search_only_the_front_is_drawn(run_b):
+    figure = search_figures.still_figure([], run_b.front, FrontAxes.SCORES)
+    assert not list(figure.select_xaxes(row=2))
+    assert figure.layout.title.text
 
 
 def test_an_undefined_map_is_at_no_distance(run_b):

@@ -57,9 +57,18 @@ def place(plot, x, y):
     )
 
 
+def still_place(page, plot, x, y):
+    """The same, once the charts above have taken their height."""
+    last, at = None, place(plot, x, y)
+    while at != last:
+        page.wait_for_timeout(300)
+        last, at = at, place(plot, x, y)
+    return at
+
+
 def click_at(page, plot, x, y):
     """Click a place in a chart; return the seconds until another map was shown."""
-    left, top = place(plot, x, y)
+    left, top = still_place(page, plot, x, y)
     page.mouse.move(left, top)
     page.wait_for_timeout(150)
     before = page.locator(PICTURE).first.get_attribute("src")

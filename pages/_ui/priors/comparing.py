@@ -33,7 +33,6 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
     values = surfaces.axis(STEP)
     sweeps = [compute.sweep(run, values) for run in runs.values()]
     all_fronts = [run.front for run in runs.values()]
-    marks.legend()
     overlay, region = st.columns([5, 4], gap="medium")
     with overlay:
         _overlay(runs)

@@ -28,15 +28,16 @@ SHORT = {
 def one_drawing(run: Run) -> None:
     """Both fronts, their pairs, the chosen pair's maps; then the ends of each front."""
     both = scores.both_rules(run)
-    marks.legend()
-    chart, space, side = st.columns([5, 4, 3], gap="medium")
+    chart, space, side = st.columns([6, 5, 3], gap="medium")
     # The maps first: after a click the user waits for them.
     with side:
         _chosen_maps(both)
     drawn = [_drawn(one) for one in both]
     found = _as_found(run)
     with chart:
-        _front_chart([*map(_ghost, found), *drawn])
+        pale = " (pale: drawing as it is)" if found else ""
+        title = f"Pareto front under each rule{pale}"
+        _front_chart([*map(_ghost, found), *drawn], title)
     with space:
         _prior_space(both, drawn)
     _choices()
@@ -70,12 +71,13 @@ def _as_found(run: Run) -> list[Run]:
 
 def _ghost(found: Run) -> Drawn:
     color, dash, symbol = LOOKS[found.settings.rule]
-    return Drawn("the same, drawing as it is", found.front, color, dash, symbol, size=0)
+    name = f"{SHORT[found.settings.rule]}, drawing as it is"
+    return Drawn(name, found.front, color, dash, symbol, size=0)
 
 
 def _drawn(run: Run) -> Drawn:
     color, dash, symbol = LOOKS[run.settings.rule]
-    name = f"drawing {SHORT[run.settings.rule]}"
+    name = SHORT[run.settings.rule]
     found = [_mark(run, one.prior, one.name, one.symbol) for one in marks.marked(run)]
     found.append(_mark(run, state.prior(), "chosen", marks.SYMBOLS["chosen"]))
     return Drawn(name, run.front, color, dash, symbol, marks=tuple(found))
@@ -85,19 +87,19 @@ def _mark(run: Run, prior: Prior, name: str, symbol: str) -> Mark:
     """A map of one rule; the blank one is the same under both."""
     at, is_blank = run.scores(prior), prior == scores.BLANK
     color = palette.UNSEEN if is_blank else LOOKS[run.settings.rule][0]
-    full = name if is_blank else f"{name}, drawing {SHORT[run.settings.rule]}"
+    full = name if is_blank else f"{name}, {SHORT[run.settings.rule]}"
     pair = None if is_blank else state.nearest_pair(prior)
     fixed = name in (marks.CALIBRATED, marks.IN_BITS)
     return Mark(full, at.precision, at.recall, symbol, color, pair, not fixed)
 
 
-def _front_chart(drawn: list[Drawn]) -> None:
+def _front_chart(drawn: list[Drawn], title: str) -> None:
     settings = state.settings()
     figure = front_figures.fronts_figure(
         drawn,
         settings.axes,
         settings.min_recall,
-        "Pareto front under each rule",
+        title,
         "front",
     )
     st.plotly_chart(
@@ -225,8 +227,8 @@ def explain() -> None:
         )
     with tell:
         st.markdown(
-            "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
-            "Which front gets more points, and what does each point give up?"
+            "**Predict**, then press *Thin walls by 2 px*. Which front gets more "
+            "points, and what does each point give up?"
         )
         with st.expander("And then?"):
             st.markdown(

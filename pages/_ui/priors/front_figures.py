@@ -137,10 +137,12 @@ def front_steps(drawn: Drawn, axes: FrontAxes) -> go.Scatter:
         # A front of one point has no border; its symbol stands in the legend.
         mode="lines" if len(drawn.front) > 1 else "lines+markers",
         line=line,
-        marker={"symbol": drawn.symbol, "size": drawn.size or 5},
+        marker={"symbol": drawn.symbol, "size": drawn.size or 8},
+        cliponaxis=False,
         name=drawn.name,
         hoverinfo="skip",
         opacity=0.8 if drawn.size else 0.5,
+        showlegend=drawn.size > 0,
     )
 
 
@@ -202,7 +204,7 @@ def mark_trace(mark: Mark, axes: FrontAxes, ends: list[Pair]) -> go.Scatter:
         customdata=None if mark.pair is None else [list(mark.pair)],
         mode="markers+text" if beyond else "markers",
         text=[label],
-        textposition="middle right",
+        textposition="middle left" if x == ends[0][1] else "middle right",
         textfont={"size": 11},
         name=mark.name,
         marker=marker,

@@ -39,6 +39,13 @@ BEYOND = (
 )
 
 
+def shown(p_free: float) -> str:
+    """A probability that is neither 0 nor 1, and is not shown as one of them."""
+    if not 0.001 <= p_free <= 0.999:
+        return "below 0.001" if p_free < 0.5 else "above 0.999"
+    return f"{p_free:.3g}"
+
+
 @dataclass(frozen=True, slots=True)
 class MarkedPrior:
     """A prior with its name and the symbol of its mark."""
@@ -61,8 +68,8 @@ class MarkedPrior:
     @property
     def text(self) -> str:
         """Its name and its own probabilities of free, on wall cells and elsewhere."""
-        p_free = self.prior.p_free_wall, self.prior.p_free_space
-        return f"{self.name} {p_free[0]:.3g} and {p_free[1]:.3g}"
+        wall, space = shown(self.prior.p_free_wall), shown(self.prior.p_free_space)
+        return f"{self.name} {wall} and {space}"
 
 
 def marked(run: Run) -> list[MarkedPrior]:

@@ -11,7 +11,7 @@ from pages._ui.priors.surfaces import HIGH, LOW, TARGETS, SurfaceView
 
 Pair = tuple[float, float]
 P_WALL, P_SPACE = words.chart("p_wall"), words.chart("p_space")
-SURFACE_PX = 290
+SURFACE_PX = 330
 ROW_PX = 250
 ROW_GAP_PX = 56
 COLUMN_GAP = 0.1

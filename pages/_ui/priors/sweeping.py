@@ -34,10 +34,6 @@ def one_drawing(run: Run) -> None:
     both = scores.both_rules(run)
     rows = [surfaces.views(one, settings) for one in both]
     ends = _ends(rows)
-    with st.container(horizontal=True, vertical_alignment="bottom"):
-        controls.slider("p_wall", width=controls.NARROW_PX)
-        controls.slider("p_space", width=controls.NARROW_PX)
-        marks.legend(EXTRA.get(settings.surface))
     for one, views in zip(both, rows, strict=True):
         marked = marks.marked(one)
         values = words.maths(front_words.marks_text(marked))
@@ -46,6 +42,8 @@ def one_drawing(run: Run) -> None:
         # The map first: after a click the user waits for it.
         with side:
             maps.chosen_map(one)
+            if one is both[0]:
+                _pair_sliders()
         for column, view, scale in zip(charts, views, ends, strict=True):
             with column:
                 _surface_chart(one, view, scale, marked)
@@ -56,6 +54,12 @@ def one_drawing(run: Run) -> None:
             st.markdown(f"**The chosen pair: {CHOICES[one.settings.rule].lower()}**")
             st.markdown(scores.table(one, state.prior()))
     st.caption(scores.BITS)
+
+
+def _pair_sliders() -> None:
+    for name, column in zip(("p_wall", "p_space"), st.columns(2), strict=True):
+        with column:
+            controls.slider(name)
 
 
 def _ends(rows: list[list[SurfaceView]]) -> list[tuple[float, float]]:
@@ -91,10 +95,8 @@ def all_drawings() -> None:
     settings = state.settings()
     runs = {name: compute.reference_run(name, settings) for name in sample_names()}
     rows = [surfaces.views(run, settings) for run in runs.values()]
-    picture, text = st.columns([3, 2], gap="large")
+    picture, text = st.columns([3, 1], gap="large")
     with picture:
-        controls.radio("rule")
-        marks.legend()
         figure = surface_figures.rows_figure(
             rows,
             list(runs),
@@ -105,8 +107,8 @@ def all_drawings() -> None:
         st.plotly_chart(figure, config=controls.CHART_CONFIG, key="surface_rows")
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:
-        show_maxima(runs, f"cells of {settings.cell_px} px", "Drawing")
         explain(next(iter(runs.values())))
+    show_maxima(runs, f"cells of {settings.cell_px} px", "Drawing")
 
 
 def sizes(run: Run) -> None:
@@ -118,7 +120,7 @@ def sizes(run: Run) -> None:
         )
         for cell_px in CELLS
     }
-    table, text = st.columns(2, gap="large")
+    table, text = st.columns([3, 2], gap="large")
     with table:
         show_maxima(runs, words.plain(building.title), "Cells")
     with text:
@@ -160,7 +162,7 @@ def _see() -> str:
         )
     else:
         said = (
-            "Yellow is better, blue is worse; both rules share the scale of a score. "
+            "Yellow is better, blue is worse; the surfaces of a score share its scale. "
             "Within the line lie the pairs that are better than no drawing."
         )
     if settings.drawings is Drawings.ALL:
@@ -172,8 +174,8 @@ def explain(run: Run) -> None:
     """What to see, to predict and why, of the view that is shown."""
     st.markdown(f"**See.** {_see()}")
     st.markdown(
-        "**Predict**, then thin the drawn walls by 2 px (*Drawing's errors*). "
-        "Under which rule does the area within the line change more?"
+        "**Predict**, then press *Thin walls by 2 px*. Under which rule does the area "
+        "within the line change more?"
     )
     if state.settings().surface is Surface.EXACT:
         st.markdown(
