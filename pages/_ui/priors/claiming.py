@@ -35,7 +35,7 @@ LABELS = {
     "reach": "Range",
 }
 WORDS: dict[Enum, str] = {
-    UpdateRule.SUBTRACT_PRIOR: "Taken off at every reading",
+    UpdateRule.SUBTRACT_PRIOR: "Taken off each reading",
     UpdateRule.PRIOR_ONCE: "Counted once",
     BehindHit.OCCUPIED: "Object",
     BehindHit.UNSEEN: "Unseen",
@@ -56,11 +56,11 @@ def section(drawings: list[Building]) -> None:
         "more about the condition than about the prior."
     )
     asked = tuple((drawing.digest, drawing.sensor) for drawing in drawings)
-    label = "Judge the claims (about half a minute)"
-    if st.button(label, type="primary"):
-        state.set_view("claims", asked)
     if state.view("claims", None) != asked:
-        return
+        label = "Judge the claims (about half a minute)"
+        if not st.button(label, type="primary"):
+            return
+        state.set_view("claims", asked)
     results = _judged(drawings)
     counts = tally(results)
     st.markdown(verdict(counts))
@@ -121,7 +121,7 @@ def _filters() -> tuple[Condition, ...]:
             word = st.selectbox(
                 LABELS[name],
                 [*options, ANY],
-                width=200,
+                width=185,
                 **state.bind_view(f"claims_{name}", next(iter(options))),
             )
             chosen[name] = options.get(word)
@@ -151,6 +151,7 @@ def _counts(
     event = st.dataframe(
         table,
         hide_index=True,
+        height="content",
         on_select="rerun",
         selection_mode="single-row",
         key="claims_table",
