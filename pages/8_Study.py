@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages._ui import controls, shell
-from pages._ui.priors import studying
+from pages._ui.priors import claiming, studying
 
 with shell.page("pages/8_Study.py") as lesson:
     shell.heading(lesson)
@@ -21,3 +21,4 @@ with shell.page("pages/8_Study.py") as lesson:
     studying.tables(cases)
     studying.all_fronts(cases)
     studying.downloads(cases)
+    claiming.section(studying.drawings())

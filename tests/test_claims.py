@@ -42,6 +42,7 @@ from occsim.study.claims import (
     facts_of,
     judge_case,
     judged,
+    matching,
     read_claims,
     tally,
 )
@@ -339,17 +340,29 @@ def test_counts_are_of_cases_drawings_and_cell_sizes(cases):
     assert counts["C10"].applies.max() == counts["C7"].applies.max() == 2
     for claim in ("C2", "C7", "C10"):
         for i in (0, 100, 319):
-            found = behind(judged(cases), claim, CONDITIONS[i])
-            assert counts[claim].holds[i] == sum(holds is True for _, holds, _ in found)
-            values = [value for _, holds, value in found if holds is not None]
+            found = behind(judged(cases), claim, [CONDITIONS[i]])
+            assert counts[claim].holds[i] == sum(one.holds is True for one in found)
+            values = [one.value for one in found if one.holds is not None]
             if values:
                 assert counts[claim].mean_value[i] == pytest.approx(np.mean(values))
-    labels = [label for label, *_ in behind(judged(cases), "C3", SOURCE_CONDITION)]
+    labels = [one.label for one in behind(judged(cases), "C3", [SOURCE_CONDITION])]
     assert labels == ["one, 5 px", "one, 10 px", "two, 5 px", "two, 10 px"]
     assert [one.label for one in judged(cases) if "C7" in one.findings] == [
         "5 px",
         "10 px",
     ]
+
+
+def test_counts_of_several_conditions_are_added(cases):
+    count = tally(judged(cases))["C2"]
+    some = matching({"walls": Walls.TRUE, "readings": Readings.LAPS, "region": None})
+    assert len(some) == 320 / 5 / 4
+    at = [CONDITIONS.index(condition) for condition in some]
+    holds, applies, mean = count.over(some)
+    assert (holds, applies) == (count.holds[at].sum(), count.applies[at].sum())
+    found = behind(judged(cases), "C2", some)
+    assert len(found) == 4 * len(some)
+    assert mean == pytest.approx(np.nanmean([one.value for one in found]))
 
 
 def test_pairs_in_common_are_those_of_all_drawings(cases):

@@ -5,7 +5,7 @@ Arguments with a leading underscore are not part of a key; their digest is.
 
 import os
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -45,6 +45,7 @@ from occsim.priors import (
 from occsim.samples import OTHER_DRAWINGS, drawings_of_size
 from occsim.sensor import most_cells_in_view
 from occsim.study import StudyCase, StudySettings, run_case
+from occsim.study.claims import ClaimsCase, judge_case
 from occsim.study.cost import StepCost
 from occsim.study.cost import step_costs as timed_steps
 from occsim.walls import (
@@ -345,6 +346,25 @@ def _study_case(
 ) -> StudyCase:
     with core():
         return run_case(_drawing, cell_px, of)
+
+
+def claims_case(
+    drawing: Building, cell_px: int, on_progress: Callable[[int, int], None]
+) -> ClaimsCase:
+    """Every claim of the source on one drawing at one cell size; about a second."""
+    key = drawing.name, drawing.digest, drawing.sensor
+    return _claims_case(key, cell_px, drawing, on_progress)
+
+
+@shared()
+def _claims_case(
+    key: tuple[object, ...],
+    cell_px: int,
+    _drawing: Building,
+    _on_progress: Callable[[int, int], None],
+) -> ClaimsCase:
+    with core():
+        return judge_case(_drawing, cell_px, _on_progress)
 
 
 # --- Your building: walls and pictures ------------------------------------------------

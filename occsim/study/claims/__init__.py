@@ -17,14 +17,17 @@ from occsim.study.claims.conditions import (
     Readings,
     Walls,
     departures,
+    matching,
 )
 from occsim.study.claims.facts import Facts, facts_of
 from occsim.study.claims.judging import CLAIMS, Claim, Finding, Unit
 from occsim.study.claims.tally import (
+    Behind,
     Count,
     Judged,
     behind,
     case_rows,
+    cases_csv,
     claims_json,
     claims_text,
     count_rows,
@@ -35,6 +38,7 @@ from occsim.study.claims.tally import (
 )
 
 __all__ = [
+    "Behind",
     "CHOICES",
     "CLAIMS",
     "CONDITIONS",
@@ -54,6 +58,7 @@ __all__ = [
     "Walls",
     "behind",
     "case_rows",
+    "cases_csv",
     "claims_document",
     "claims_json",
     "claims_text",
@@ -63,6 +68,7 @@ __all__ = [
     "facts_of",
     "judge_case",
     "judged",
+    "matching",
     "read_claims",
     "save_claims",
     "tally",

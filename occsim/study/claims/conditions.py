@@ -1,6 +1,6 @@
 """The conditions under which the source's claims are judged."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from itertools import product
@@ -120,3 +120,30 @@ def departures() -> list[Condition]:
         for value in values[1:]
     ]
     return [SOURCE_CONDITION, *others]
+
+
+def matching(chosen: Mapping[str, Enum | None]) -> tuple[Condition, ...]:
+    """Return the conditions that have some values.
+
+    Parameters
+    ----------
+    chosen : dict
+        Fields of a condition, and the value of each; None allows any.
+
+    Returns
+    -------
+    tuple of Condition
+
+    Examples
+    --------
+    >>> from occsim import UpdateRule
+    >>> from occsim.study.claims import matching
+    >>> len(matching({"rule": UpdateRule.PRIOR_ONCE, "walls": None}))
+    160
+    """
+    wanted = {name: value for name, value in chosen.items() if value is not None}
+    return tuple(
+        condition
+        for condition in CONDITIONS
+        if all(getattr(condition, name) is value for name, value in wanted.items())
+    )

@@ -249,7 +249,7 @@ def _gap(one: BoolArray, other: BoolArray) -> int:
 class Unit(Enum):
     """What a claim is judged on."""
 
-    CASE = "drawings x cell sizes"
+    CASE = "drawings × cell sizes"
     DRAWING = "drawings"
     CELL = "cell sizes"
 

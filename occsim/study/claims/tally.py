@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -75,6 +76,25 @@ class Count:
         """Mean of the values, (N,); NaN where the claim applies to nothing."""
         with np.errstate(invalid="ignore"):
             return np.asarray(self.total / self.applies)
+
+    def over(self, conditions: Sequence[Condition]) -> tuple[int, int, float]:
+        """Return how often it holds, applies, and the mean value, of some conditions.
+
+        Parameters
+        ----------
+        conditions : sequence of Condition
+            Their counts are added.
+
+        Returns
+        -------
+        holds, applies : int
+        mean_value : float
+            NaN where it applies to nothing.
+        """
+        at = [CONDITIONS.index(condition) for condition in conditions]
+        holds, applies = int(self.holds[at].sum()), int(self.applies[at].sum())
+        mean = float(self.total[at].sum()) / applies if applies else float("nan")
+        return holds, applies, mean
 
 
 def judged(cases: Iterable[ClaimsCase]) -> Iterator[Judged]:
@@ -189,10 +209,20 @@ def case_rows(results: Iterable[Judged]) -> Iterator[Row]:
             yield (one.name, size, *condition.words, *cells)
 
 
+class Behind(NamedTuple):
+    """One case behind a count."""
+
+    label: str
+    condition: Condition
+    holds: bool | None
+    """None where the claim does not apply."""
+    value: float
+
+
 def behind(
-    results: Iterable[Judged], claim: str, condition: Condition
-) -> list[tuple[str, bool | None, float]]:
-    """Return the cases behind one count.
+    results: Iterable[Judged], claim: str, conditions: Sequence[Condition]
+) -> list[Behind]:
+    """Return the cases behind a count.
 
     Parameters
     ----------
@@ -200,20 +230,25 @@ def behind(
         What the claims come to.
     claim : str
         The claim's number.
-    condition : Condition
-        Any.
+    conditions : sequence of Condition
+        Those that were counted.
 
     Returns
     -------
-    list of tuple
-        Label, whether the claim holds (None where it does not apply), value.
+    list of Behind
     """
-    i = CONDITIONS.index(condition)
+    at = [CONDITIONS.index(condition) for condition in conditions]
     return [
-        (one.label, one.findings[claim].holds[i], float(one.findings[claim].values[i]))
+        Behind(one.label, CONDITIONS[i], found.holds[i], float(found.values[i]))
         for one in results
-        if claim in one.findings
+        if (found := one.findings.get(claim)) is not None
+        for i in at
     ]
+
+
+def cases_csv(results: Iterable[Judged]) -> str:
+    """Return `case_rows` as CSV text with a header."""
+    return csv_text(CASE_COLUMNS, case_rows(results))
 
 
 def counts_csv(counts: Mapping[str, Count]) -> str:

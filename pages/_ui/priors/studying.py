@@ -87,7 +87,9 @@ def findings(cases: list[StudyCase]) -> None:
             "**How to read this.** The source's five drawings may not be used here. "
             "Ours are of the same kinds, so only the pattern can be compared. In "
             f"the source, recall peaks with {words.maths('p_space')} = 1, precision "
-            f"with a low {words.maths('p_space')}, and no pair has both."
+            f"with a low {words.maths('p_space')}, and no pair has both. That a "
+            "pattern appears does not show that the method is right: it comes and "
+            "goes with the conditions, see Claims below."
         )
 
 
