@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from occsim._types import ByteArray, FloatArray
+from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
 from occsim.walls.raster import Components, box, components, flipped, opened
 from occsim.walls.strokes import Measures, level_lines
 
@@ -85,73 +85,102 @@ def find_doors(
     # The middle of a quarter circle runs at about 45 degrees, as long as wide.
     shorter = np.minimum(parts.width, parts.height)
     likely &= (shorter >= FLATTEST * parts.longest) & (shorter > 2 * m.line)
-    found = []
-    for index in np.flatnonzero(likely):
-        for x, y in _halves(*_pixels(parts, int(index))):
-            swing = _swing(x, y, fit, m.line)
-            door = _door(ink, swing, m.line) if swing else None
-            if door and low <= door.radius_px <= high:
-                found.append(door)
-    return tuple(found)
+    doors = (_door(ink, swing, m.line) for swing in _swings(parts, likely, fit, m.line))
+    return tuple(door for door in doors if door and low <= door.radius_px <= high)
 
 
-def _halves(x: FloatArray, y: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
-    """Return a stroke, or its halves if it may be the two arcs of a double door."""
-    along, across = (x, y) if np.ptp(x) > np.ptp(y) else (y, x)
-    if not 1.5 * np.ptp(across) <= np.ptp(along) <= 3 * np.ptp(across):
-        return [(x, y)]
-    first = along < (along.min() + along.max()) / 2
-    return [(x[first], y[first]), (x[~first], y[~first])]
+def _swings(
+    parts: Components, likely: BoolArray, fit: float, line_px: int
+) -> FloatArray:
+    """Return the arcs among strokes, shape (K, 4): hinge x, y, radius, bearing.
 
-
-def _pixels(parts: Components, index: int) -> tuple[FloatArray, FloatArray]:
-    """Return x and y of the pixels of a component."""
-    left, top = int(parts.left[index]), int(parts.top[index])
-    window = parts.labels[
-        top : top + int(parts.height[index]), left : left + int(parts.width[index])
-    ]
-    rows, cols = np.nonzero(window == index)
-    return np.asarray(cols + float(left)), np.asarray(rows + float(top))
-
-
-def _swing(
-    x: FloatArray, y: FloatArray, fit: float, line_px: int
-) -> tuple[float, float, float, float] | None:
-    """Return hinge, radius and middle bearing of the arc that pixels make, or None."""
+    All strokes are fitted at once; there are hundreds in a sheet.
+    """
+    x, y, piece = _strokes(parts, likely)
+    if not len(piece):
+        return np.zeros((0, 4))
     kept = np.ones(len(x), dtype=bool)
     for _ in range(3):  # what hangs on an arc is left out round by round
-        cx, cy, radius = _circle(x[kept], y[kept])
-        stray = np.abs(np.hypot(x - cx, y - cy) - radius)
-        kept = stray <= max(fit * radius + line_px / 2, float(np.median(stray)))
-    on_arc = stray <= fit * radius + line_px / 2
-    if np.mean(on_arc) < ON_ARC:
-        return None
-    x, y = x[on_arc], y[on_arc]
-    bearing = np.arctan2(y - cy, x - cx)
-    middle = float(np.arctan2(np.sin(bearing).mean(), np.cos(bearing).mean()))
-    apart = np.abs((bearing - middle + np.pi) % (2 * np.pi) - np.pi)
-    if not SPAN_RAD[0] <= 2 * np.percentile(apart, 95) <= SPAN_RAD[1]:
-        return None
-    return cx, cy, radius, middle
+        cx, cy, radius = _circles(x, y, piece, kept)
+        stray = np.abs(np.hypot(x - cx[piece], y - cy[piece]) - radius[piece])
+        least = np.maximum(fit * radius + line_px / 2, _quantile(stray, piece, 0.5))
+        kept = stray <= least[piece]
+    on_arc = stray <= (fit * radius + line_px / 2)[piece]
+    share = _mean(on_arc, piece)
+    x, y, piece = x[on_arc], y[on_arc], piece[on_arc]
+    bearing = np.arctan2(y - cy[piece], x - cx[piece])
+    sine, cosine = (_sum(f(bearing), piece, len(share)) for f in (np.sin, np.cos))
+    middle = np.arctan2(sine, cosine)
+    apart = np.abs((bearing - middle[piece] + np.pi) % (2 * np.pi) - np.pi)
+    span = 2 * _quantile(apart, piece, 0.95, len(share))
+    good = (share >= ON_ARC) & (span >= SPAN_RAD[0]) & (span <= SPAN_RAD[1])
+    return np.asarray(np.stack([cx, cy, radius, middle], axis=1)[good])
 
 
-def _circle(x: FloatArray, y: FloatArray) -> tuple[float, float, float]:
-    """Return centre and radius of the circle of least squares (Kasa's fit)."""
-    origin = x.mean(), y.mean()
-    x, y = x - origin[0], y - origin[1]
-    system = np.stack([2 * x, 2 * y, np.ones_like(x)])
-    normal = system @ system.T
-    normal[np.diag_indices(3)] += 1e-9 * normal.trace()  # pixels in one line
-    cx, cy, c = np.linalg.solve(normal, system @ (x * x + y * y))
-    radius = float(np.sqrt(max(c + cx * cx + cy * cy, 0.0)))
-    return float(cx + origin[0]), float(cy + origin[1]), radius
+def _strokes(
+    parts: Components, likely: BoolArray
+) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Return x, y and stroke number of the pixels of likely strokes, in order.
+
+    What may be the two arcs of a double door is cut in half, along its longer side.
+    """
+    width = parts.labels.shape[1]
+    at = np.flatnonzero(likely[parts.labels])
+    part = parts.labels.ravel()[at]
+    x, y = at % width, at // width
+    wide, high = parts.width - 1, parts.height - 1
+    longer, shorter = np.maximum(wide, high), np.minimum(wide, high)
+    double = (longer >= 1.5 * shorter) & (longer <= 3 * shorter)
+    place = np.where((wide > high)[part], x - parts.left[part], y - parts.top[part])
+    second = double[part] & (place >= (longer / 2)[part])
+    _, piece = np.unique(2 * part + second, return_inverse=True)
+    order = np.argsort(piece, kind="stable")
+    return np.asarray(x[order], float), np.asarray(y[order], float), piece[order]
 
 
-def _door(
-    ink: ByteArray, swing: tuple[float, float, float, float], line_px: int
-) -> Door | None:
+def _sum(values: FloatArray, piece: IntArray, n: int) -> FloatArray:
+    """Return the sum for each stroke."""
+    return np.asarray(np.bincount(piece, values, n), np.float64)
+
+
+def _mean(values: FloatArray | BoolArray, piece: IntArray) -> FloatArray:
+    """Return the mean for each stroke."""
+    return np.asarray(np.bincount(piece, values) / np.bincount(piece))
+
+
+def _quantile(
+    values: FloatArray, piece: IntArray, share: float, n: int = 0
+) -> FloatArray:
+    """Return for each stroke the value below which a share of its values lies.
+
+    The last stroke's first value stands for strokes without any.
+    """
+    ordered = values[np.lexsort((values, piece))]
+    count = np.bincount(piece, minlength=n)
+    at = np.cumsum(count) - count + (share * (count - 1)).astype(np.int64)
+    return np.asarray(ordered[np.clip(at, 0, max(len(ordered) - 1, 0))])
+
+
+def _circles(
+    x: FloatArray, y: FloatArray, piece: IntArray, kept: BoolArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return centres and radii of the circles of least squares (Kasa's fit)."""
+    x0, y0 = _mean(x, piece), _mean(y, piece)
+    piece = piece[kept]
+    x, y = x[kept] - x0[piece], y[kept] - y0[piece]
+    columns = (2 * x, 2 * y, np.ones_like(x))
+    n = len(x0)
+    normal = np.array([[_sum(a * b, piece, n) for b in columns] for a in columns])
+    right = np.array([_sum(a * (x * x + y * y), piece, n) for a in columns])
+    normal += 1e-9 * np.trace(normal) * np.eye(3)[:, :, None]  # pixels in one line
+    solved = np.linalg.solve(normal.transpose(2, 0, 1), right.T[:, :, None])
+    cx, cy, c = solved[:, :, 0].T
+    return cx + x0, cy + y0, np.sqrt(np.maximum(c + cx * cx + cy * cy, 0.0))
+
+
+def _door(ink: ByteArray, swing: FloatArray, line_px: int) -> Door | None:
     """Return the door of a swing: its leaf stands at the end where there is ink."""
-    x, y, radius, middle = swing
+    x, y, radius, middle = swing.tolist()
     middle = np.round(middle / (np.pi / 2) - 0.5) * np.pi / 2 + np.pi / 4
     ends = middle - np.pi / 4, middle + np.pi / 4
     doors = [

@@ -1,8 +1,10 @@
 """Which pieces belong to a building: those that hang together, also across doorways."""
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
-from occsim._types import ByteArray
+from occsim._types import ByteArray, IntArray
 from occsim.walls.raster import box, components, dilated, filled, flipped
 from occsim.walls.strokes import Measures, column_runs
 
@@ -83,15 +85,41 @@ def _facing(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
     mask = np.zeros_like(walls)
     widths: list[float] = []
     for edge in (top, bottom - 1):
-        ends = np.zeros_like(walls)
-        ends[edge, column] = 1
-        parts = components(ends)
-        side = parts.width
+        part, side, depth = _ends(column, edge, len(walls))
         like_wall = side >= LIKE_WALL[0] * m.wall
-        like_wall &= (side <= LIKE_WALL[1] * m.wall) & (parts.height <= m.wall)
-        part = parts.labels[edge, column]
+        like_wall &= (side <= LIKE_WALL[1] * m.wall) & (depth <= m.wall)
         these = like_wall[part] & (bottom - top >= NARROWEST * m.wall)
         mask |= filled(walls.shape, top[these], bottom[these], column[these])
         _, first = np.unique(part[these], return_index=True)
         widths += (bottom - top)[these][first].tolist()
     return mask, widths
+
+
+def _ends(
+    column: IntArray, row: IntArray, height: int
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Return the wall's end that each pixel is part of, and their widths and depths.
+
+    Pixels, ordered down columns, are of one end where they touch: far quicker on
+    some hundred pixels than components of the whole sheet.
+    """
+    place = column * height + row
+    pairs = []
+    for step in (height - 1, height, height + 1):
+        other = np.searchsorted(place, place + step)
+        near = np.flatnonzero(np.append(place, -1)[other] == place + step)
+        pairs.append(np.stack([near, other[near]]))
+    one, other = np.concatenate(pairs, axis=1)
+    n = len(place)
+    _, part = connected_components(coo_array((np.ones(len(one)), (one, other)), (n, n)))
+    order = np.argsort(part, kind="stable")
+    start = np.flatnonzero(np.diff(part[order], prepend=-1))
+    if not n:
+        return part, part, part
+    width, depth = (
+        np.maximum.reduceat(along[order], start)
+        - np.minimum.reduceat(along[order], start)
+        + 1
+        for along in (column, row)
+    )
+    return part, width, depth

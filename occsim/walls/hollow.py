@@ -5,6 +5,7 @@ hatched wall is a hollow one. A wall at another angle is found on a turned sheet
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -59,8 +60,6 @@ class Strips:
 
     Parameters
     ----------
-    mask : ndarray of uint8, shape (h, w)
-        The strips.
     parts : Components
         Each of them.
     upright : bool
@@ -69,11 +68,31 @@ class Strips:
         Share of each strip with room on both sides, and on one side at least.
     """
 
-    mask: ByteArray
     parts: Components
     upright: bool
     sure: FloatArray
     likely: FloatArray
+
+    @cached_property
+    def slices(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Pixels of all strips, the slice each lies in, and the strip of each slice.
+
+        A slice is what a strip has of a column, or of a row where it runs down.
+        """
+        at = np.flatnonzero(self.parts.labels)
+        height, width = self.parts.labels.shape
+        along = at // width if self.upright else at % width
+        side = max(height, width)
+        slices = self.parts.labels.ravel()[at].astype(np.int64) * side + along
+        unique, number = np.unique(slices, return_inverse=True)
+        return at, number, unique // side
+
+    def touched(self, near: ByteArray) -> IntArray:
+        """Return along how much of its length each strip has pixels of a mask, px."""
+        at, number, strip = self.slices
+        hit = np.zeros(len(strip), dtype=bool)
+        hit[number[near.ravel()[at] > 0]] = True
+        return np.bincount(strip[hit], minlength=len(self.length))
 
     @property
     def length(self) -> IntArray:
@@ -171,14 +190,14 @@ def _joined(
     line, joint, ahead = 4 * m.line + 1, 4 * m.wall, 2 * AHEAD * m.wall
     joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall)
     joined &= ~_rare(s, m) | _long(s, m)
-    joined &= _touched(s, _grown(walls, s, across=line)) <= BESIDE_SHARE * s.length
+    joined &= s.touched(_grown(walls, s, across=line)) <= BESIDE_SHARE * s.length
     in_line, crossing = found[s.upright], found[not s.upright]
     near = dilated(walls, box(3)) | _grown(in_line, s, along=ahead)
     near |= _grown(crossing, s, along=line) | _grown(crossing, s, across=line)
-    reached = _touched(s, near) > 0
+    reached = s.touched(near) > 0
     # What stands in the corner of a room may hide where a long wall meets another.
     reached |= _long(s, m) & (
-        _touched(s, _grown(crossing, s, along=joint, across=line)) > 0
+        s.touched(_grown(crossing, s, along=joint, across=line)) > 0
     )
     return joined & reached
 
@@ -188,16 +207,6 @@ def _grown(
 ) -> ByteArray:
     """Return a mask grown along strips and across them, full widths in px."""
     return dilated(mask, box(across, along) if s.upright else box(along, across))
-
-
-def _touched(s: Strips, near: ByteArray) -> IntArray:
-    """Return along how much of its length each strip has pixels of a mask, px."""
-    at = np.flatnonzero(near & s.mask)
-    width = near.shape[1]
-    along = at // width if s.upright else at % width
-    side = max(near.shape)
-    pairs = np.unique(s.parts.labels.ravel()[at].astype(np.int64) * side + along)
-    return np.bincount(pairs // side, minlength=len(s.length))
 
 
 def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
@@ -220,7 +229,7 @@ def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
         masks = [flipped(mask) for mask in masks]
     parts = components(masks[0], 4)
     likely, sure = (parts.total(mask) / np.maximum(parts.area, 1) for mask in masks[1:])
-    return Strips(masks[0], parts, upright, sure, likely)
+    return Strips(parts, upright, sure, likely)
 
 
 def _pairs(
