@@ -72,7 +72,7 @@ from occsim.priors import (
 from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
-from occsim.scan import Scan, ScanLog, evidence_from_scans, simulate_scans
+from occsim.scan import Scan, ScanLog, ScanNoise, evidence_from_scans, simulate_scans
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
@@ -113,6 +113,7 @@ __all__ = [
     "Sample",
     "Scan",
     "ScanLog",
+    "ScanNoise",
     "ScoreCurves",
     "Scores",
     "Sensor",

@@ -258,6 +258,8 @@ GOOD = {
     "simulate_scans": {
         **{name: ASKED[name] for name in ("world", "trajectory", "sensor")},
         "n_beams": 3,
+        "noise": occsim.ScanNoise(metres_per_px=0.05),
+        "rng": np.random.default_rng(0),
     },
     "set_c": {"front": FRONT, "min_recall": 0.4},
     "surface_front": {"surface": SURFACE, **BOX},

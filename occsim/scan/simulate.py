@@ -11,6 +11,12 @@ from occsim.geometry import wrap_angle
 from occsim.rays.outline import NO_FACE, trace_outline
 from occsim.rays.reach import SIDE_COS, SIDE_SIN, View, seen_faces
 from occsim.scan.log import ScanLog
+from occsim.scan.noise import (
+    ScanNoise,
+    estimated_poses,
+    noisy_ranges,
+    without_glass,
+)
 from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
 from occsim.world import World
@@ -20,7 +26,12 @@ MAX_BEAMS = 100_000
 
 
 def simulate_scans(
-    world: World, trajectory: Trajectory, sensor: Sensor, n_beams: int
+    world: World,
+    trajectory: Trajectory,
+    sensor: Sensor,
+    n_beams: int,
+    noise: ScanNoise | None = None,
+    rng: np.random.Generator | None = None,
 ) -> ScanLog:
     """Return the scans that a range finder would take along a trajectory.
 
@@ -35,16 +46,21 @@ def simulate_scans(
     n_beams : int
         Beams of each scan, 1 to `MAX_BEAMS`. They point at the middles of equal sectors
         of the field of view.
+    noise : ScanNoise, optional
+        Errors of ranges and poses; none by default.
+    rng : numpy.random.Generator, optional
+        Draws the errors; needed with `noise`.
 
     Returns
     -------
     ScanLog
-        Infinite where a beam meets nothing within reach.
+        Ranges are taken at the true poses, and entered at the estimated ones. Infinite
+        where a beam meets nothing within reach.
 
     Raises
     ------
     TypeError
-        Where an argument is of another type.
+        Where an argument is of another type, or there is noise without a generator.
     ParameterError
         Where the number of beams lies outside its domain.
 
@@ -70,10 +86,25 @@ def simulate_scans(
         expect(name, value, kind)
     n_beams = whole_number("n_beams", n_beams, 1, MAX_BEAMS)
     bearings = ((np.arange(n_beams) + 0.5) / n_beams - 0.5) * sensor.fov_rad
-    ranges = np.concatenate(
-        list(_exact_ranges(world, trajectory.poses, sensor, bearings))
-    )
-    return ScanLog(trajectory.poses, bearings, ranges, sensor.range_px)
+    poses, most = trajectory.poses, sensor.range_px
+    if noise is None:
+        return ScanLog(poses, bearings, _exact(world, poses, sensor, bearings), most)
+    expect("noise", noise, ScanNoise)
+    expect("rng", rng, np.random.Generator)
+    assert rng is not None  # for the type checker
+    # One generator for each kind of error: none shifts what the others draw.
+    for_glass, for_ranges, for_poses = rng.spawn(3)
+    seen = without_glass(world, noise, rng=for_glass)
+    ranges = _exact(seen, poses, sensor, bearings)
+    ranges = noisy_ranges(ranges, most, noise, rng=for_ranges)
+    poses = estimated_poses(poses, noise, rng=for_poses)
+    return ScanLog(poses, bearings, ranges, most)
+
+
+def _exact(
+    world: World, poses: FloatArray, sensor: Sensor, bearings_rad: FloatArray
+) -> FloatArray:
+    return np.concatenate([*_exact_ranges(world, poses, sensor, bearings_rad)])
 
 
 def _exact_ranges(

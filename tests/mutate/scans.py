@@ -52,4 +52,32 @@ SCANS: tuple[Mutation, ...] = (
         ("tests/test_scan.py",),
         "beams point at the middles of equal sectors",
     ),
+    Mutation(
+        "occsim/scan/noise.py",
+        "beyond = np.maximum(z_m - self.sigma_from_m, 0.0)",
+        "beyond = np.maximum(z_m, 0.0)",
+        ("tests/test_scan_noise.py",),
+        "range noise grows from the distance at which it is least",
+    ),
+    Mutation(
+        "occsim/scan/noise.py",
+        "np.sqrt(noise.alpha_3 * step_m**2 + by_turning)",
+        "np.sqrt(noise.alpha_3 * step_m + by_turning)",
+        ("tests/test_scan_noise.py",),
+        "a step's variance grows with its square, as in Table 5.6",
+    ),
+    Mutation(
+        "occsim/scan/noise.py",
+        "measured[dropped] = np.inf",
+        "measured[dropped] = 0.0",
+        ("tests/test_scan_noise.py",),
+        "a dropped return is no return",
+    ),
+    Mutation(
+        "occsim/scan/simulate.py",
+        "ranges = _exact(seen, poses, sensor, bearings)",
+        "ranges = _exact(world, poses, sensor, bearings)",
+        ("tests/test_scan_noise.py",),
+        "range finders look through glass",
+    ),
 )
