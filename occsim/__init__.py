@@ -72,6 +72,7 @@ from occsim.priors import (
 from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
+from occsim.scan import Scan, ScanLog, ScanNoise, evidence_from_scans, simulate_scans
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
@@ -110,6 +111,9 @@ __all__ = [
     "Region",
     "Reliability",
     "Sample",
+    "Scan",
+    "ScanLog",
+    "ScanNoise",
     "ScoreCurves",
     "Scores",
     "Sensor",
@@ -132,6 +136,7 @@ __all__ = [
     "dominates",
     "dump_trajectory",
     "estimated_prior",
+    "evidence_from_scans",
     "exact_front",
     "exact_objective",
     "flawed_mask",
@@ -165,6 +170,7 @@ __all__ = [
     "score",
     "scores_by_reading",
     "set_c",
+    "simulate_scans",
     "stream_evidence",
     "surface_front",
     "sweep_priors",

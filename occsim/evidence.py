@@ -1,6 +1,6 @@
 """The evidence log: what the readings say, before any prior."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
@@ -105,7 +105,13 @@ def collect_evidence(
     >>> log.n_readings == len(sample.trajectory)
     True
     """
-    parts = list(stream_evidence(world, trajectory, sensor, grid, on_progress))
+    return joined(stream_evidence(world, trajectory, sensor, grid, on_progress))
+
+
+def joined(parts: Iterable[EvidenceLog]) -> EvidenceLog:
+    """Return parts of a log, on one grid, laid end to end."""
+    parts = list(parts)
+    grid = parts[0].grid
     if len(parts) == 1:
         return parts[0]
     sizes, cell, log_odds = (
@@ -194,21 +200,34 @@ def stream_evidence(
     ):
         expect(name, value, kind)
     require_cover(grid, world.shape)
-    return _parts(world, trajectory, sensor, grid, on_progress)
+    batches = pixel_counts(world, trajectory.poses, sensor, grid)
+    return logged(batches, len(trajectory), on_progress)
 
 
-def _parts(
-    world: World,
-    trajectory: Trajectory,
-    sensor: Sensor,
-    grid: Grid,
-    on_progress: Progress | None,
+def logged(
+    batches: Iterable["PixelCounts"], n_readings: int, on_progress: Progress | None
 ) -> Iterator[EvidenceLog]:
-    for counts in pixel_counts(world, trajectory.poses, sensor, grid):
+    """Yield what Eq. 4.22 says of the pixels counted, as one log for each batch.
+
+    Parameters
+    ----------
+    batches : iterable of PixelCounts
+        What the readings see, one batch after another.
+    n_readings : int
+        How many there are in all.
+    on_progress : callable, optional
+        Called after each batch.
+
+    Yields
+    ------
+    EvidenceLog
+    """
+    for counts in batches:
         sizes, cell, log_odds = _entries(counts)
+        grid = counts.windows.grid
         yield EvidenceLog.known_sound(grid, _ends(sizes), cell, log_odds)
         if on_progress is not None:
-            on_progress(counts.done, len(trajectory))
+            on_progress(counts.done, n_readings)
 
 
 def _ends(sizes: IntArray) -> IntArray:
@@ -220,7 +239,8 @@ def _ends(sizes: IntArray) -> IntArray:
 _faces: WeakKeyDictionary[World, WallFaces] = WeakKeyDictionary()
 
 
-def _faces_of(world: World) -> WallFaces:
+def faces_of(world: World) -> WallFaces:
+    """Return the surface of a world's walls."""
     # Worlds never change, so the faces are cached for calls with one pose each.
     faces = _faces.get(world)
     if faces is None:
@@ -268,25 +288,34 @@ def pixel_counts(
     ------
     PixelCounts
     """
-    faces = _faces_of(world)
-    for batch in _batches(len(poses), sensor, grid, faces):
+    faces = faces_of(world)
+    n_counters = most_counters(sensor.range_px, grid)
+    for batch in batches_of(len(poses), n_counters, sensor, faces, world):
         view = View.of(poses[batch], sensor)
         windows = windows_around(view, grid)
         n_empty, n_object = _count(world, faces, view, sensor, windows)
         yield PixelCounts(batch.stop, windows, n_empty, n_object)
 
 
-def _batches(
-    n_readings: int, sensor: Sensor, grid: Grid, faces: WallFaces
+def most_counters(range_px: float, grid: Grid) -> int:
+    """Return an upper bound of the cells of a reading's window."""
+    across = int(min(2.0 * range_px / grid.cell_px, max(grid.shape))) + 4
+    return min(across, grid.n_rows) * min(across, grid.n_cols)
+
+
+def batches_of(
+    n_readings: int, n_counters: int, sensor: Sensor, faces: WallFaces, world: World
 ) -> list[slice]:
-    """Return slices of readings that together stay within bounds of memory."""
-    reach_px = 2.0 * sensor.range_px
-    across = int(min(reach_px / grid.cell_px, max(grid.shape))) + 4
-    window = min(across, grid.n_rows) * min(across, grid.n_cols)
+    """Return slices of readings that together stay within bounds of memory.
+
+    `n_counters` is the number of cells, or beams, of each reading.
+    """
     # On average a reading has its share of the faces in reach, by area.
-    share = min(reach_px / grid.height_px, 1.0) * min(reach_px / grid.width_px, 1.0)
-    n_faces = int(share * faces.position.size) + 1
-    size = min(COUNTERS_AT_ONCE // window, FACES_AT_ONCE // n_faces, READINGS_AT_ONCE)
+    across = 2.0 * sensor.range_px / np.array(world.shape)
+    n_faces = int(np.minimum(across, 1.0).prod() * faces.position.size) + 1
+    size = min(
+        COUNTERS_AT_ONCE // n_counters, FACES_AT_ONCE // n_faces, READINGS_AT_ONCE
+    )
     size = max(size, 1)
     starts = range(0, n_readings, size)
     return [slice(start, min(start + size, n_readings)) for start in starts]

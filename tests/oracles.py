@@ -111,3 +111,78 @@ def naive_evidence(world, trajectory, sensor, cell_px):
         ]
         for pose in trajectory.poses.tolist()
     ]
+
+
+def naive_sectors(bearings, fov_rad):
+    """[(begin, end, beam)] by ascending bearing, unwrapped; ends half-way to others."""
+    beams = sorted(range(len(bearings)), key=lambda beam: bearings[beam])
+    ordered = [bearings[beam] for beam in beams]
+    middles = [(a + b) / 2 for a, b in zip(ordered, ordered[1:], strict=False)]
+    if middles:
+        before, after = middles[0] - ordered[0], ordered[-1] - middles[-1]
+    else:
+        before = after = fov_rad / 2
+    begin, end = ordered[0] - before, ordered[-1] + after
+    # Beams all round have no edge: the first and the last are neighbours too.
+    if ordered[0] + 2 * math.pi - ordered[-1] <= 1.01 * (before + after):
+        begin = (ordered[-1] - 2 * math.pi + ordered[0]) / 2
+        end = begin + 2 * math.pi
+        edges = [begin - EPS, *(m - EPS for m in middles), end - EPS]
+    else:
+        edges = [begin - EPS, *(m - EPS for m in middles), end + EPS]
+    return list(zip(edges, edges[1:], beams, strict=False))
+
+
+def classify_in_scan(pose, row, col, sectors, ranges, max_range_px, sensor):
+    """The class of one pixel in one scan: "empty", "object" or None."""
+    x, y, theta = pose
+    dx, dy = col + 0.5 - x, row + 0.5 - y
+    distance = math.hypot(dx, dy)
+    valid = [z for z in ranges if not math.isnan(z)]
+    if distance <= OWN_PIXEL_EPS_PX:
+        if not valid:
+            return None
+        return "object" if max(valid) <= OWN_PIXEL_EPS_PX else "empty"
+    reach = min(sensor.range_px, max_range_px)
+    if distance > reach + EPS:
+        return None
+    bearing = math.atan2(dy, dx) - theta
+    for begin, end, beam in sectors:
+        if (bearing - begin) % (2 * math.pi) < end - begin:
+            z = ranges[beam]
+            break
+    else:
+        return None
+    if math.isnan(z):
+        return None
+    if z > reach + EPS:  # no return, or none that is used
+        return "empty" if sensor.clear_no_hit else None
+    if distance < z - EPS:
+        return "empty"
+    if sensor.behind_hit is BehindHit.OCCUPIED:
+        return "object"
+    return "object" if distance - z <= SURFACE_DEPTH_PX + EPS else None
+
+
+def naive_scan_evidence(scan_log, sensor, grid):
+    """Per scan a list of (flat cell, log-odds), cells ascending."""
+    sectors = naive_sectors(scan_log.bearings_rad.tolist(), sensor.fov_rad)
+    readings = []
+    for pose, ranges in zip(
+        scan_log.poses.tolist(), scan_log.ranges_px.tolist(), strict=True
+    ):
+        counts = {}
+        for row in range(grid.height_px):
+            for col in range(grid.width_px):
+                kind = classify_in_scan(
+                    pose, row, col, sectors, ranges, scan_log.max_range_px, sensor
+                )
+                if kind is not None:
+                    cell = (row // grid.cell_px) * grid.n_cols + col // grid.cell_px
+                    empty, objects = counts.get(cell, (0, 0))
+                    is_empty = kind == "empty"
+                    counts[cell] = (empty + is_empty, objects + (not is_empty))
+        readings.append(
+            [(cell, naive_log_odds(*n)) for cell, n in sorted(counts.items())]
+        )
+    return readings

@@ -171,6 +171,7 @@ ASKED = {
     "sensor": Sensor(),
     "grid": WORLD.grid(2),
 }
+SCANS = occsim.simulate_scans(WORLD, ASKED["trajectory"], Sensor(), 3)
 CELLS = {"evidence": LOG, "is_wall": WALL, "truth": WALL}
 CHOICES = {"rule": UpdateRule.PRIOR_ONCE, "region": Region.ALL}
 BOX = {"low": 0.1, "high": 1.0}
@@ -200,6 +201,11 @@ GOOD = {
     "stream_evidence": ASKED,
     "coverage": {"occupancy_map": MAP},
     "dominates": {"better": [0.5, 0.5], "worse": [0.5, 0.4]},
+    "evidence_from_scans": {
+        "scan_log": SCANS,
+        "sensor": Sensor(),
+        "grid": WORLD.grid(2),
+    },
     "exact_front": {**CELLS, **CHOICES, **BOX, "scale": 0.9},
     "exact_objective": {**CELLS, **CHOICES, "scale": 0.9},
     "flawed_mask": {"mask": WALL, "flaws": occsim.DrawingFlaws(thickness_px=1)},
@@ -249,6 +255,12 @@ GOOD = {
         "n_readings": 1,
         "measure": occsim.Measure.F2,
     },
+    "simulate_scans": {
+        **{name: ASKED[name] for name in ("world", "trajectory", "sensor")},
+        "n_beams": 3,
+        "noise": occsim.ScanNoise(metres_per_px=0.05),
+        "rng": np.random.default_rng(0),
+    },
     "set_c": {"front": FRONT, "min_recall": 0.4},
     "surface_front": {"surface": SURFACE, **BOX},
     "sweep_priors": {
@@ -296,7 +308,7 @@ GOOD = {
 WHOLE = {"world", "trajectory", "sensor", "grid", "prior", "prior_map", "evidence"}
 WHOLE |= {"occupancy_map", "sweep", "surface", "front", "sweeps", "fronts"}
 WHOLE |= {"is_wall", "truth", "wall_mask", "mask", "flaws", "building"}
-WHOLE |= {"blank"}
+WHOLE |= {"blank", "scan_log"}
 STRANGE = {
     "nothing": None,
     "a number": 3,

@@ -27,6 +27,7 @@ ORDER = [
     {"reading"},
     {"tour"},
     {"mapping"},
+    {"scan"},
     {"metrics"},
     {"priors"},
     {"building"},

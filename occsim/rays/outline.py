@@ -34,12 +34,15 @@ class Outline:
         Unit vectors (x, y) of the bearings at which the piece starts and ends. No
         piece crosses a cardinal bearing: arcs then only fall or only rise, and no
         chord comes near the robot.
+    begin : ndarray of float64, shape (P,)
+        Bearing at which the piece starts, relative to the heading, rad.
     """
 
     reading: IntArray
     face: IntArray
     start: FloatArray
     end: FloatArray
+    begin: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +86,7 @@ def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     """Return the intervals between all ends of faces, sorted within each reading."""
     n, k = view.size, faces.reading.size
     edge = np.full(n, view.half)
-    turns = wrap_angle(_TURNS - view.theta).reshape(-1)
-    turns = np.minimum(np.maximum(turns, -view.half), view.half)
+    turns = cardinal_cuts(view).reshape(-1)
     bearing = np.concatenate([-edge, edge, turns, faces.begin, faces.end])
     owner = np.concatenate([np.arange(6 * n) % n, faces.reading, faces.reading])
     # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
@@ -101,6 +103,15 @@ def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     middle = 0.5 * (begin + end) + view.theta[reading]
     first, stop = rank[6 * n : 6 * n + k], rank[6 * n + k :]
     return _Intervals(reading, begin, end, np.cos(middle), np.sin(middle), first, stop)
+
+
+def cardinal_cuts(view: View) -> FloatArray:
+    """Return the four cardinal bearings relative to each heading, shape (4, N), rad.
+
+    Those that are out of view lie at the edge of it.
+    """
+    turns = wrap_angle(_TURNS - view.theta)
+    return np.minimum(np.maximum(turns, -view.half), view.half)
 
 
 def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
@@ -138,12 +149,13 @@ def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
     differs |= quadrant[1:] != quadrant[:-1]
     first, last = run_ends(differs)
     owner = reading[first]
-    theta = view.theta[owner]
+    theta, begin = view.theta[owner], intervals.begin[first]
     return Outline(
         reading=owner,
         face=nearest[first],
-        start=_unit_vectors(intervals.begin[first], theta),
-        end=_unit_vectors(intervals.end[last], theta),
+        start=unit_vectors(begin, theta),
+        end=unit_vectors(intervals.end[last], theta),
+        begin=begin,
     )
 
 
@@ -165,8 +177,8 @@ def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
     return first, last
 
 
-def _unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
-    """Return unit vectors (2, P) of bearings relative to a heading."""
+def unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
+    """Return unit vectors (2, P) of bearings, (P,), relative to headings, rad."""
     # A full turn ends where it began, to the last bit: its seam must cancel.
     absolute = np.where(bearing >= np.pi, -np.pi, bearing) + theta
     return np.array([np.cos(absolute), np.sin(absolute)])

@@ -123,11 +123,14 @@ class Edges:
         Reading of the batch.
     start, end : ndarray of float64, shape (2, E)
         Points (x, y) from the robot, px.
+    radius : float or ndarray of float64, shape (E,)
+        Of arcs, px: one for all of them, or each its own.
     """
 
     reading: IntArray
     start: FloatArray
     end: FloatArray
+    radius: FloatArray | float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +142,7 @@ class Polygons:
     straight : Edges
         Edges that are straight.
     arcs : Edges
-        Edges that run along the reach, none across a cardinal bearing.
+        Edges that run round the robot, none across a cardinal bearing.
     """
 
     straight: Edges
@@ -176,7 +179,7 @@ def empty_polygons(
     ends = np.concatenate([outline.start[:, at_face], outline.end[:, at_face]], axis=1)
     points = points_on_faces(faces, np.concatenate([face, face]), ends)
     start[:, at_face], end[:, at_face] = points[:, : face.size], points[:, face.size :]
-    return _closed(outline.reading, start, end, is_arc, view)
+    return closed_polygons(outline.reading, start, end, is_arc, view.reach, view)
 
 
 def view_polygons(outline: Outline, view: View, *, clear_no_hit: bool) -> Polygons:
@@ -198,17 +201,36 @@ def view_polygons(outline: Outline, view: View, *, clear_no_hit: bool) -> Polygo
     is_arc = (outline.face != NO_FACE) | clear_no_hit
     radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
     start, end = outline.start * radius, outline.end * radius
-    return _closed(outline.reading, start, end, is_arc, view)
+    return closed_polygons(outline.reading, start, end, is_arc, view.reach, view)
 
 
-def _closed(
+def closed_polygons(
     reading: IntArray,
     start: FloatArray,
     end: FloatArray,
     is_arc: BoolArray,
+    radius: FloatArray | float,
     view: View,
 ) -> Polygons:
-    """Return pieces of boundary joined by straight edges, and round the robot."""
+    """Return pieces of boundary joined by straight edges, and round the robot.
+
+    Parameters
+    ----------
+    reading : ndarray of int64, shape (P,)
+        Reading of each piece, ascending; within one, bearings ascend without a gap.
+    start, end : ndarray of float64, shape (2, P)
+        Its ends (x, y) from the robot, px, at least OWN_RADIUS_PX away.
+    is_arc : ndarray of bool, shape (P,)
+        Whether the piece runs round the robot; none across a cardinal bearing.
+    radius : float or ndarray of float64, shape (P,)
+        Of those that do, px.
+    view : View
+        N readings.
+
+    Returns
+    -------
+    Polygons
+    """
     differs = reading[1:] != reading[:-1]
     first, last = run_ends(differs)
     follows = (~differs).nonzero()[0]
@@ -225,7 +247,9 @@ def _closed(
         np.concatenate([start[:, flat], end[:, follows], *past[:-1]], axis=1),
         np.concatenate([end[:, flat], start[:, follows + 1], *past[1:]], axis=1),
     )
-    return Polygons(straight, Edges(reading[arc], start[:, arc], end[:, arc]))
+    if isinstance(radius, np.ndarray):
+        radius = radius[arc]
+    return Polygons(straight, Edges(reading[arc], start[:, arc], end[:, arc], radius))
 
 
 def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray:
@@ -304,7 +328,10 @@ def _crossings(
     sign = np.where(falls, np.int32(-1), np.int32(1))[edge]
     if is_arc:
         y = row - shift[edge]
-        x = -sign * np.sqrt(np.maximum(view.reach**2 - y * y, 0.0))
+        radius = edges.radius
+        if isinstance(radius, np.ndarray):
+            radius = radius[edge]
+        x = -sign * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
     else:
         # From the upper end whichever way it is walked: the two sides of the seam of
         # a full turn then cancel to the last bit.

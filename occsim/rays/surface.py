@@ -4,6 +4,7 @@ import numpy as np
 
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import wrap_angle
+from occsim.grid import Grid
 from occsim.rays.outline import NO_FACE, Outline, lateral_slope
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View, first_pixel_is_wall
@@ -149,10 +150,26 @@ def own_pixels(
         No counter twice.
     is_wall : ndarray of bool, shape (Q,)
     """
-    height, width = occupied.shape
+    reading, row, col = robots_on_centres(windows.grid, view)
+    return windows.pixel_counters(reading, row, col), occupied[row, col]
+
+
+def robots_on_centres(grid: Grid, view: View) -> tuple[IntArray, IntArray, IntArray]:
+    """Return which robots stand on the centre of a pixel, and on which.
+
+    Parameters
+    ----------
+    grid : Grid
+        Gives the size of the image.
+    view : View
+        N readings; only robots in the image count.
+
+    Returns
+    -------
+    reading, row, col : ndarray of int64, shape (Q,)
+    """
     row, col = np.floor(view.y), np.floor(view.x)
     own = np.hypot(view.x - col - 0.5, view.y - row - 0.5) <= OWN_PIXEL_EPS_PX
-    own &= (row >= 0) & (col >= 0) & (row < height) & (col < width)
+    own &= (row >= 0) & (col >= 0) & (row < grid.height_px) & (col < grid.width_px)
     reading = np.flatnonzero(own)
-    row, col = row[reading].astype(np.int64), col[reading].astype(np.int64)
-    return windows.pixel_counters(reading, row, col), occupied[row, col]
+    return reading, row[reading].astype(np.int64), col[reading].astype(np.int64)

@@ -4,6 +4,7 @@ from tests.mutate.arithmetic import ARITHMETIC
 from tests.mutate.buildings import BUILDINGS
 from tests.mutate.mutation import Mutation
 from tests.mutate.proper import PROPER
+from tests.mutate.scans import SCANS
 from tests.mutate.scripts import SCRIPTS
 from tests.mutate.walls import WALLS
 
@@ -11,6 +12,7 @@ MUTATIONS: tuple[Mutation, ...] = (
     *ARITHMETIC,
     *BUILDINGS,
     *PROPER,
+    *SCANS,
     *SCRIPTS,
     *WALLS,
 )

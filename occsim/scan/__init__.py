@@ -1,0 +1,13 @@
+"""Scans: what a real range finder gives, simulated or recorded, beam by beam.
+
+One path for both: a `ScanLog` becomes evidence as the exact readings of
+`occsim.collect_evidence` do, with one range for each sector between beams in place of
+one for each pixel.
+"""
+
+from occsim.scan.evidence import evidence_from_scans
+from occsim.scan.log import Scan, ScanLog
+from occsim.scan.noise import ScanNoise
+from occsim.scan.simulate import simulate_scans
+
+__all__ = ["Scan", "ScanLog", "ScanNoise", "evidence_from_scans", "simulate_scans"]
