@@ -72,6 +72,7 @@ from occsim.priors import (
 from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
+from occsim.samples.lens import lens_world
 from occsim.scan import Scan, ScanLog, ScanNoise, evidence_from_scans, simulate_scans
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
@@ -145,6 +146,7 @@ __all__ = [
     "hypervolume",
     "interpolate",
     "interpolated_objective",
+    "lens_world",
     "load_drawing",
     "load_sample",
     "load_trajectory",

@@ -281,6 +281,7 @@ GOOD = {
         "file_format": "csv",
         "degrees": False,
     },
+    "lens_world": {},
     "load_drawing": {
         "source": b"",
         "name": "plan",

@@ -12,24 +12,14 @@ from occsim import (
     Sensor,
     Trajectory,
     TrajectoryError,
-    World,
     collect_evidence,
+    lens_world,
     load_sample,
     one_reading,
 )
 from tests.oracles import classify, in_view
 
 LENS_PX = (32, 48)
-
-
-def lens_world():
-    """The world of the lens: a wall with a door, a partition and a pillar."""
-    occupied = np.zeros(LENS_PX, bool)
-    occupied[:, 38:41] = True
-    occupied[12:20, 38:41] = False
-    occupied[22:24, :38] = True
-    occupied[5:8, 22:25] = True
-    return World(occupied=occupied)
 
 
 @pytest.mark.parametrize("behind_hit", BehindHit)

@@ -6,7 +6,6 @@ its set-up, does not hold at its witness, or holds at its wrong answer.
 
 from occsim.exercises.exercise import Check, Exercise, Question, Verdict, judge
 from occsim.exercises.facts import Context, Facts
-from occsim.exercises.lens import lens_world
 from occsim.exercises.load import load_exercise, load_exercises
 from occsim.exercises.state import ExerciseState, changed
 
@@ -20,7 +19,6 @@ __all__ = [
     "Verdict",
     "changed",
     "judge",
-    "lens_world",
     "load_exercise",
     "load_exercises",
 ]

@@ -9,7 +9,6 @@ import numpy as np
 
 from occsim.evidence_log import EvidenceTotals
 from occsim.exercises.grammar import Value
-from occsim.exercises.lens import CELL_PX, RANGE_PX, lens_world
 from occsim.exercises.state import (
     END,
     FLAWS,
@@ -26,6 +25,7 @@ from occsim.prior import Prior
 from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import load_sample, prior_drawing, sample_names
+from occsim.samples.lens import lens_world
 
 SHARES = ("precision", "recall", "f1", "f2", "iou", "accuracy", "coverage")
 COUNTS = ("tp", "fp", "fn", "tn")
@@ -56,6 +56,7 @@ GROUPS = {
     "answer": None,
 }
 """The facts of each group; None where the state says which there are."""
+LENS_CELL_PX, LENS_RANGE_PX = 4, 36.0
 MAX_LAPS = 20
 STUDY_CELLS_PX = (3, 5, 10)
 
@@ -261,8 +262,8 @@ class Facts:
         return one_reading(
             world,
             (x, y, math.radians(degrees)),
-            self.state.sensor(RANGE_PX),
-            world.grid(CELL_PX),
+            self.state.sensor(LENS_RANGE_PX),
+            world.grid(LENS_CELL_PX),
         )
 
     def _lens(self, name: str) -> float:

@@ -8,7 +8,7 @@ from pathlib import Path
 import streamlit as st
 
 SHARED = Path(__file__).parent / "shared"
-SHARED_SCRIPTS = ("bytes.js", "colours.js", "dom.js")
+SHARED_SCRIPTS = ("bytes.js", "colours.js", "dom.js", "logodds.js", "text.js")
 
 
 def component(

@@ -23,7 +23,6 @@ from pages._ui.settings import TABLE, Settings, with_changes
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
-    "text.js",
     "replay.js",
     "model.js",
     "cells.js",

@@ -4,15 +4,6 @@
 // the prior's log-odds l_0 and, per cell, the number k and the sum S of its readings:
 // l = S + l_0 (prior once) or l = S + (1 - k) l_0 (subtract prior).
 
-const LATTICE = 2 ** -36; // nats; that of occsim.logodds: sums and ties are exact
-
-const logit = (p) => Math.round((Math.log(p) - Math.log1p(-p)) / LATTICE) * LATTICE;
-
-function pFreeOf(logOdds) {
-  const small = Math.exp(-Math.abs(logOdds));
-  return (logOdds >= 0 ? 1 : small) / (1 + small);
-}
-
 function newModel(replay, { decisionEps, priorScale }) {
   const sums = new Float64Array(replay.nCells);
   const counts = new Int32Array(replay.nCells);
