@@ -48,7 +48,9 @@ from pages._ui.state.pairs import (
 )
 from pages._ui.state.replay import (
     PLAYER_KEY,
+    TWO_MAPS_KEY,
     forget_player,
+    parts_held,
     player_document,
     take_from_player,
 )
@@ -68,6 +70,7 @@ __all__ = [
     "OPENING",
     "OWN",
     "PLAYER_KEY",
+    "TWO_MAPS_KEY",
     "YOUR_BUILDING",
     "attempt",
     "bind",
@@ -98,6 +101,7 @@ __all__ = [
     "open_own",
     "open_project",
     "pair",
+    "parts_held",
     "player_document",
     "prepare",
     "prior",
