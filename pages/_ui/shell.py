@@ -80,19 +80,6 @@ CSS = """
 [data-testid="stHeader"] { display: none; }
 [data-testid="stVerticalBlock"] { gap: 0.5rem; }
 .stMainBlockContainer h1 { font-size: 1.5rem; line-height: 1.2; padding: 0 0 0.4rem; }
-/* While a page loads, each of its parts would move what stands below. So only the row
-of lessons and signs of work are shown until the address line says that all is there, or
-after a few seconds in any case. */
-html:not([data-drawn]) :is(.stMainBlockContainer, .stMainBlockContainer *) {
-    visibility: hidden; animation: appear 0s 4s forwards;
-}
-@keyframes appear { to { visibility: visible; } }
-html:not([data-drawn]) .stMainBlockContainer
-    :is(.st-key-lessons, .stSpinner, .stProgress, .stAlert),
-html:not([data-drawn]) .stMainBlockContainer
-    :is(.st-key-lessons, .stSpinner, .stProgress, .stAlert) * {
-    visibility: visible;
-}
 /* As high as a select box, so that neighbours and their labels stand level. */
 [data-testid="stButtonGroup"] > div button { min-height: 2.5rem; }
 /* Captions are read, not skipped: Streamlit's 0.6 is a contrast of 3.9. */

@@ -12,20 +12,9 @@ export default function (component) {
   replaceAddress(query);
   heedLeaving(unsaved);
   heedConnection();
-  showWhenDrawn();
   // On a telephone the navigation is one row to swipe.
   document.querySelector(".st-key-current_page")?.scrollIntoView({ block: "nearest", inline: "center" });
   root.querySelector("button").onclick = () => copy(said, note);
-}
-
-// A page is shown once it has stood still for a moment: see CSS in shell.py.
-function showWhenDrawn(height = 0, calm = 0) {
-  const page = document.documentElement;
-  const block = document.querySelector("[data-testid=stVerticalBlock]");
-  if ("drawn" in page.dataset || !block) return;
-  const isWaiting = document.querySelector("[data-testid=stSkeleton]") || block.scrollHeight !== height;
-  if (!isWaiting && calm === 3) page.dataset.drawn = "";
-  else window.setTimeout(showWhenDrawn, 50, block.scrollHeight, isWaiting ? 0 : calm + 1);
 }
 
 function replaceAddress(query) {
