@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages._ui import compute, shell, state, words
+from pages._ui import compute, replays, shell, state, words
 from pages._ui.components.player import PlayerDocument, map_player
 
 HOME_SAMPLE = "a"
@@ -29,8 +29,8 @@ with shell.page("app.py"):
             st.caption(lesson.purpose)
     with picture:
         sample = compute.sample(HOME_SAMPLE)
-        replay = compute.replay(sample, state.defaults(HOME_SAMPLE))
-        map_player(replay, HOME_REPLAY, key="home_player")
+        settings = state.defaults(HOME_SAMPLE)
+        map_player(replays.replay(sample, settings), HOME_REPLAY, key="home_player")
         st.caption(
             f"The robot maps “{sample.title}”. White is free, black is occupied. "
             "Cells that it has not seen yet show the drawing: light grey for space, "

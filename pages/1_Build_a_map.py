@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages._ui import compute, controls, shell, state, uploads, words
+from pages._ui import controls, replays, shell, state, uploads, words
 from pages._ui.components.player import map_player
 
 EQUATIONS = r"""
@@ -94,8 +94,14 @@ with shell.page("pages/1_Build_a_map.py") as lesson:
     shell.heading(lesson)
     _controls()
     _notices()
-    replay = compute.replay(state.building(), state.settings())
-    state.take_from_player(
-        map_player(replay, state.player_document(), key=state.PLAYER_KEY)
+    key = state.PLAYER_KEY
+    state.take_from_player(key)
+    settings = state.settings()
+    map_player(
+        replays.replay(state.building(), settings),
+        state.player_document(key),
+        key=key,
+        held=state.parts_held(key),
+        fixed=settings.page_choices,
     )
     _words()

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from occsim import DrawingFlaws, Region, UpdateRule, flawed_mask
-from occsim.io.replay import unpack_replay
-from pages._ui import compute, presets
+from occsim.io.replay import unpack_walls
+from pages._ui import compute, presets, replays
 from pages._ui.choices import Preset, PriorDrawing
 from pages._ui.settings import Settings, with_changes
 from tests.test_pages import control, launch, said
@@ -35,8 +35,9 @@ def test_errors_touch_the_prior_and_neither_the_readings_nor_the_truth():
 def test_the_player_replays_the_prior_of_the_drawing_with_its_errors():
     building = compute.sample("d")
     run = compute.run(building, settings(prior_drawing=PriorDrawing.E))
-    replay = unpack_replay(compute.replay(building, run.settings))
-    np.testing.assert_array_equal(replay.is_wall, run.mapped.wall_cells)
+    parts = replays.replay(building, run.settings).parts
+    [walls] = [unpack_walls(part.data) for part in parts if part.kind == "walls"]
+    np.testing.assert_array_equal(walls, run.mapped.wall_cells)
 
 
 def test_only_drawings_of_the_same_size_are_offered():

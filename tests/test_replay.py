@@ -9,13 +9,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occsim import EvidenceLog, Grid, ParameterError, Sensor, Trajectory
+from occsim import EvidenceLog, Grid, ParameterError, Sensor, Trajectory, World
 from occsim.imaging import Drawing
+from occsim.io.preview import PREVIEW_MAX_PX, encode_preview
 from occsim.io.replay import (
-    PREVIEW_MAX_PX,
-    encode_preview,
-    pack_replay,
-    unpack_replay,
+    pack_log,
+    pack_scene,
+    pack_walls,
+    unpack_log,
+    unpack_scene,
+    unpack_walls,
 )
 
 
@@ -34,18 +37,20 @@ def log_of(grid: Grid, readings: list[dict[int, float]]) -> EvidenceLog:
     )
 
 
-def pack(log: EvidenceLog, is_wall=None, truth=None, poses=None, drawing=None) -> bytes:
-    grid = log.grid
-    nothing = np.zeros(grid.shape, np.bool_)
-    return pack_replay(
+def pack(log: EvidenceLog, truth=None, n_poses=None) -> bytes:
+    return pack_log(
         log,
-        is_wall=nothing if is_wall is None else is_wall,
-        truth=nothing if truth is None else truth,
-        trajectory=Trajectory(
-            poses=np.zeros((log.n_readings, 3)) if poses is None else poses
-        ),
+        truth=np.zeros(log.grid.shape, np.bool_) if truth is None else truth,
+        trajectory=Trajectory(poses=np.zeros((n_poses or log.n_readings, 3))),
+    )
+
+
+def scene(poses, occupied, drawing=None) -> bytes:
+    return pack_scene(
+        World(occupied=occupied),
+        trajectory=Trajectory(poses=poses),
         sensor=Sensor(range_px=12.5, fov_rad=0.75),
-        drawing=drawing or blank(grid.height_px, grid.width_px),
+        drawing=drawing or blank(*occupied.shape),
     )
 
 
@@ -70,48 +75,67 @@ def runs(draw):
 def test_unpacking_gives_back_what_was_packed(run):
     """Entries may come in any order within a reading; the replay has them by cell."""
     log, is_wall, truth = run
-    poses = np.arange(3.0 * log.n_readings).reshape(-1, 3) / 8
-    replay = unpack_replay(pack(log, is_wall, truth, poses))
+    evidence, judged_by = unpack_log(pack(log, truth))
     order = np.lexsort((log.cell, log.reading))
-    assert replay.evidence.grid == log.grid
-    np.testing.assert_array_equal(replay.evidence.indptr, log.indptr)
-    np.testing.assert_array_equal(replay.evidence.cell, log.cell[order])
-    np.testing.assert_array_equal(replay.evidence.log_odds, log.log_odds[order])
-    np.testing.assert_array_equal(replay.is_wall, is_wall)
-    np.testing.assert_array_equal(replay.truth, truth)
-    np.testing.assert_array_equal(replay.poses, poses.astype(np.float32))
-    assert (replay.range_px, replay.fov_rad) == (12.5, 0.75)
+    assert evidence.grid == log.grid
+    np.testing.assert_array_equal(evidence.indptr, log.indptr)
+    np.testing.assert_array_equal(evidence.cell, log.cell[order])
+    np.testing.assert_array_equal(evidence.log_odds, log.log_odds[order])
+    np.testing.assert_array_equal(judged_by, truth)
+    np.testing.assert_array_equal(unpack_walls(pack_walls(is_wall)), is_wall)
 
 
-def test_bytes_follow_the_documented_layout():
+@given(st.integers(1, 9), st.integers(1, 30), st.integers(1, 30), st.randoms())
+def test_a_scene_holds_poses_sensor_world_and_drawing(n_poses, height, width, random):
+    poses = np.arange(3.0 * n_poses).reshape(-1, 3) / 8
+    flags = [random.random() < 0.3 for _ in range(height * width)]
+    occupied = np.array(flags).reshape(height, width)
+    found = unpack_scene(scene(poses, occupied))
+    np.testing.assert_array_equal(found.poses, poses.astype(np.float32))
+    np.testing.assert_array_equal(found.occupied, occupied)
+    assert (found.range_px, found.fov_rad) == (12.5, 0.75)
+    assert found.preview == encode_preview(blank(height, width))
+
+
+def test_bytes_of_a_log_follow_the_documented_layout():
     """A 2 x 3 grid worked by hand.
 
     Reading 1 updates cells 1, 2 (a run that skips 1) and 5 (a run that skips cells 3
     and 4); reading 2 updates cell 0. The two log-odds -1 and 2 become indices 0 and 1.
-    Wall bits 100001 fill the high end of one byte: 0x84; truth 000010: 0x08.
+    Truth bits 000010 fill the high end of one byte: 0x08.
     """
     grid = Grid(height_px=4, width_px=6, cell_px=2)
     log = log_of(grid, [{1: 2.0, 2: -1.0, 5: 2.0}, {0: -1.0}])
-    is_wall = np.array([[1, 0, 0], [0, 0, 1]], np.bool_)
     truth = np.array([[0, 0, 0], [0, 1, 0]], np.bool_)
-    poses = np.array([[1, 2, 0.5], [3, 4, 0.25]])
-    content = zlib.decompress(pack(log, is_wall, truth, poses))
-    preview = encode_preview(blank(4, 6))
     expected = (
-        struct.pack("<4s3I", b"OGR1", 4, 6, 2)
+        struct.pack("<4s3I", b"OGL2", 4, 6, 2)
         + struct.pack("<4I", 2, 4, 3, 2)
-        + struct.pack("<4I", 1, len(preview), 0, 0)
-        + struct.pack("<2d", 12.5, 0.75)
+        + struct.pack("<2I", 1, 0)
         + struct.pack("<2d", -1.0, 2.0)
-        + struct.pack("<6f", 1, 2, 0.5, 3, 4, 0.25)
         + struct.pack("<2I", 2, 1)
         + struct.pack("<3I", 1, 2, 0)
         + struct.pack("<3I", 2, 1, 1)
         + bytes([1, 0, 1, 0])
-        + bytes([0x84, 0x08])
+        + bytes([0x08])
+    )
+    assert zlib.decompress(pack(log, truth)) == expected
+
+
+def test_bytes_of_scene_and_walls_follow_the_documented_layout():
+    """2 x 3 px and cells; bits 100001 fill the high end of one byte: 0x84."""
+    flags = np.array([[1, 0, 0], [0, 0, 1]], np.bool_)
+    poses = np.array([[1, 2, 0.5], [3, 4, 0.25]])
+    preview = encode_preview(blank(2, 3))
+    expected = (
+        struct.pack("<4s5I", b"OGS2", 2, 3, 2, len(preview), 0)
+        + struct.pack("<2d", 12.5, 0.75)
+        + struct.pack("<6f", 1, 2, 0.5, 3, 4, 0.25)
+        + bytes([0x84])
         + preview
     )
-    assert content == expected
+    assert zlib.decompress(scene(poses, flags)) == expected
+    walls = struct.pack("<4s2I", b"OGW2", 2, 3) + bytes([0x84])
+    assert zlib.decompress(pack_walls(flags)) == walls
 
 
 @pytest.mark.parametrize(("n_values", "width"), [(256, 1), (257, 2), (65537, 4)])
@@ -121,14 +145,14 @@ def test_value_indices_are_as_wide_as_the_values_need(n_values, width):
     log = log_of(grid, readings)
     packed = pack(log)
     assert struct.unpack_from("<I", zlib.decompress(packed), 32) == (width,)
-    np.testing.assert_array_equal(unpack_replay(packed).evidence.log_odds, log.log_odds)
+    np.testing.assert_array_equal(unpack_log(packed)[0].log_odds, log.log_odds)
 
 
 def test_a_run_that_saw_nothing_is_a_replay_too():
     log = log_of(Grid(height_px=3, width_px=3, cell_px=3), [{}, {}])
-    replay = unpack_replay(pack(log))
-    np.testing.assert_array_equal(replay.evidence.indptr, [0, 0, 0])
-    assert replay.evidence.cell.size == 0
+    evidence, _ = unpack_log(pack(log))
+    np.testing.assert_array_equal(evidence.indptr, [0, 0, 0])
+    assert evidence.cell.size == 0
 
 
 def decoded(preview: bytes):
@@ -164,16 +188,20 @@ def test_preview_of_a_noisy_scan_is_a_jpeg_smaller_than_its_png():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"is_wall": np.zeros((1, 1), np.bool_)}, "is_wall must have the grid's shape"),
         ({"truth": np.zeros((1, 1), np.bool_)}, "truth must have the grid's shape"),
-        ({"poses": np.zeros((3, 3))}, "one pose for each of the 2 readings; got 3"),
-        ({"drawing": blank(5, 5)}, r"the size of the grid, \(4, 6\) px; got \(5, 5\)"),
+        ({"n_poses": 3}, "one pose for each of the 2 readings; got 3"),
     ],
 )
 def test_sizes_that_do_not_fit_are_refused(changes, message):
     log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}, {1: 1.0}])
     with pytest.raises(ParameterError, match=message):
         pack(log, **changes)
+
+
+def test_a_drawing_of_another_size_than_the_world_is_refused():
+    world = np.zeros((4, 6), np.bool_)
+    with pytest.raises(ParameterError, match=r"the world, \(4, 6\) px; got \(5, 5\)"):
+        scene(np.zeros((1, 3)), world, blank(5, 5))
 
 
 def test_a_run_too_long_for_a_browser_is_refused(monkeypatch):
@@ -183,15 +211,27 @@ def test_a_run_too_long_for_a_browser_is_refused(monkeypatch):
         pack(log)
 
 
-def test_bytes_that_are_no_replay_are_refused():
-    log = log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}])
-    content = zlib.decompress(pack(log))
+PARTS = {
+    "OGL2": (pack(log_of(Grid(height_px=4, width_px=6, cell_px=2), [{0: 1.0}])), 58),
+    "OGS2": (scene(np.zeros((2, 3)), np.zeros((4, 6), np.bool_)), 60),
+    "OGW2": (pack_walls(np.zeros((4, 6), np.bool_)), 14),
+}
+UNPACK = {"OGL2": unpack_log, "OGS2": unpack_scene, "OGW2": unpack_walls}
+
+
+@pytest.mark.parametrize("kind", PARTS)
+def test_bytes_that_are_no_part_of_a_replay_are_refused(kind):
+    packed, shorter = PARTS[kind]
+    content = zlib.decompress(packed)
+    assert len(content) > shorter
+    UNPACK[kind](packed)
     for bad in (
         b"",
         b"no zlib stream",
-        zlib.compress(content[:40]),
-        zlib.compress(content[:90]),
+        zlib.compress(content[:10]),
+        zlib.compress(content[:shorter]),
         zlib.compress(b"OGR9" + content[4:]),
+        *(other for name, (other, _) in PARTS.items() if name != kind),
     ):
-        with pytest.raises(ParameterError, match="must be a replay of version 1"):
-            unpack_replay(bad)
+        with pytest.raises(ParameterError, match=rf"version 2 \({kind}\), whole"):
+            UNPACK[kind](bad)

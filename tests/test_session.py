@@ -248,7 +248,7 @@ def test_a_link_says_a_range_that_is_not_the_drawings_own(session):
 
 def test_a_link_brings_back_settings_step_pin_and_speed():
     app = opened(drawing="c", p_wall="0.35", step="17", pin="30.5,40.5", speed="60")
-    played = app.session_state["played"]
+    played = app.session_state["played"][state.PLAYER_KEY]
     assert (played.step, played.pin_px, played.speed) == (17, (30.5, 40.5), 60)
     assert app.session_state["settings"].p_wall == 0.35
 
@@ -256,7 +256,7 @@ def test_a_link_brings_back_settings_step_pin_and_speed():
 @pytest.mark.parametrize("place", [{"step": "x"}, {"pin": "1"}, {"speed": "7"}])
 def test_a_damaged_place_in_a_link_opens_half_way(place):
     app = opened(drawing="c", **place)
-    played = app.session_state["played"]
+    played = app.session_state["played"][state.PLAYER_KEY]
     assert played.step == len(load_sample("c").trajectory) // 2
     assert (played.pin_px, played.speed) == (None, None)
 
@@ -436,7 +436,7 @@ def test_a_failure_of_ours_leaves_the_navigation_and_a_way_back(
         raise ZeroDivisionError
 
     app = launch(BUILD)
-    monkeypatch.setattr("pages._ui.compute.replay", fails)
+    monkeypatch.setattr("pages._ui.replays.replay", fails)
     app.run()
     assert not app.exception
     assert "an error in this program" in said(app.error)[0]

@@ -1,4 +1,4 @@
-from dataclasses import fields
+from dataclasses import fields, replace
 from enum import Enum
 
 import pytest
@@ -13,6 +13,7 @@ from pages._ui.choices import (
     Drawings,
     Exploring,
     Fineness,
+    Flaw,
     FrontAxes,
     Handover,
     Objectives,
@@ -21,6 +22,7 @@ from pages._ui.choices import (
     PriorDrawing,
     Surface,
 )
+from pages._ui.columns import Column
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
 
 
@@ -32,6 +34,16 @@ def bounded(name):
     return st.floats(low, high)
 
 
+ANY_COLUMN = st.builds(
+    Column,
+    prior_drawing=st.sampled_from(PriorDrawing),
+    flaw=st.sampled_from(Flaw),
+    **{name: bounded(name) for name in ("p_wall", "p_space", "cell_px")},
+    calibrated=st.booleans(),
+    uninformative=st.booleans(),
+    rule=st.sampled_from(UpdateRule),
+    behind_hit=st.sampled_from(BehindHit),
+)
 ANY_SETTINGS = st.builds(
     Settings,
     **{name: bounded(name) for name in ("cell_px", "range_px", "fov_deg")},
@@ -48,6 +60,7 @@ ANY_SETTINGS = st.builds(
     study_rule=st.sampled_from(UpdateRule),
     region=st.sampled_from(Region),
     overlay=st.sampled_from(Overlay),
+    columns=st.lists(ANY_COLUMN, min_size=2, max_size=3).map(tuple),
     surface=st.sampled_from(Surface),
     fineness=st.sampled_from(Fineness),
     drawings=st.sampled_from(Drawings),
@@ -105,3 +118,17 @@ def test_a_link_says_what_differs_from_the_drawing_and_nothing_else():
     assert encode(Settings(range_px=40), of_drawing) == {"range_px": "40"}
     assert encode(Settings(range_px=20), of_drawing) == {}
     assert decode({}, of_drawing) == (of_drawing, [])
+
+
+def test_the_opening_of_two_maps_needs_no_link_and_a_change_a_short_one():
+    """Only what departs from a default map is said: here B's rule and cell size."""
+    first, second = Settings().columns
+    changed = with_changes(Settings(), {"columns": (first, replace(second, cell_px=1))})
+    assert encode(changed) == {"columns": "~~rsubtract_prior~z1"}
+
+
+@pytest.mark.parametrize(
+    "text", ["", "~~~~~~", "w0.3", "~~x1", "~~w7", "~~rnever", "~~z0.5", "~~c2"]
+)
+def test_a_link_with_wrong_columns_opens_with_the_default_ones(text):
+    assert decode({"columns": text}) == (Settings(), ["columns"])

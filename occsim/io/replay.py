@@ -1,32 +1,53 @@
-"""The replay: all that a player needs to redraw a mapping run, in compact form.
+"""The replay: all that a player needs to redraw mapping runs, in compact parts.
 
-A replay holds the evidence log, the two classes of every cell, the poses and a preview
-of the drawing. It holds no prior: the player fuses any prior with the log by itself.
+A replay has three kinds of parts, each sent once and shared by all maps that need it:
 
-Layout, version 1. The whole is one zlib stream. Inside it every number is
-little-endian, S is the number of readings, N of entries, M of runs, V of distinct
-log-odds, R and C of rows and columns of cells:
+- the *scene*: the drawing's preview, the poses, the sensor, the walls of the world;
+- a *log* per sensor reading and cell size: the evidence and the ground truth's cells;
+- *walls* per drawing of a prior and cell size: the prior's wall cells.
+
+No part holds a prior or an update rule: the player fuses any prior with a log by
+itself.
+
+Layout, version 2. Each part is one zlib stream. Inside it every number is
+little-endian. S is the number of readings, H and W the sides of the drawing in px, R
+and C the rows and columns of cells; flags are one bit each, row-major, high bit first.
 
 ====== ================ ==========================================================
-offset type             content
+offset type             content of a scene
 ====== ================ ==========================================================
-0      4 bytes          ``OGR1``
+0      4 bytes          ``OGS2``
+4      uint32 [4]       height_px, width_px, S, size P of the preview, bytes
+20     uint32           zero
+24     float64 [2]      range_px, fov_rad
+40     float32 [S, 3]   poses: x_px, y_px, theta_rad (to draw the robot, no more)
+next   ceil(H W / 8)    the world's wall pixels
+next   P bytes          preview of the drawing, PNG or JPEG
+====== ================ ==========================================================
+
+====== ================ ==========================================================
+offset type             content of a log, with N entries, M runs, V distinct log-odds
+====== ================ ==========================================================
+0      4 bytes          ``OGL2``
 4      uint32 [3]       height_px, width_px, cell_px
 16     uint32 [4]       S, N, M, V
 32     uint32           width w of a value index, bytes: 1, 2 or 4
-36     uint32           size P of the preview, bytes
-40     uint32 [2]       zero
-48     float64 [2]      range_px, fov_rad
-64     float64 [V]      the distinct log-odds, ascending, nats
-next   float32 [S, 3]   poses: x_px, y_px, theta_rad (to draw the robot, no more)
+36     uint32           zero
+40     float64 [V]      the distinct log-odds, ascending, nats
 next   uint32 [S]       number of runs of each reading
 next   uint32 [M]       cells skipped before the run since the last one's end, from
                         cell 0 at each reading's start
 next   uint32 [M]       cells in the run
 next   uint w [N]       index of each entry's log-odds
-next   ceil(R C / 8)    wall cells, one bit each, row-major, high bit first
-next   ceil(R C / 8)    the ground truth's wall cells, the same
-next   P bytes          preview of the drawing, PNG or JPEG
+next   ceil(R C / 8)    the ground truth's wall cells
+====== ================ ==========================================================
+
+====== ================ ==========================================================
+offset type             content of walls
+====== ================ ==========================================================
+0      4 bytes          ``OGW2``
+4      uint32 [2]       R, C
+12     ceil(R C / 8)    the prior's wall cells
 ====== ================ ==========================================================
 
 A *run* is a stretch of consecutive flat cells that one reading updated: a cone covers
@@ -35,83 +56,68 @@ few rows, so that runs are several times fewer than entries.
 
 import struct
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
-from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
+from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.errors import ParameterError
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.imaging import Drawing
+from occsim.io.preview import encode_preview
 from occsim.sensor import Sensor
 from occsim.trajectory import Trajectory
+from occsim.world import World
+
+T = TypeVar("T")
 
 MAX_ENTRIES = 12_000_000
 """Most cell updates: more could exhaust the memory of a browser tab."""
-MAGIC = b"OGR1"
-HEADER = struct.Struct("<4s11I2d")
-PREVIEW_MAX_PX = 1200
-"""Longest side of the preview, px: no screen shows more."""
-PREVIEW_STEP = 17
-"""Quantisation of the preview: 16 levels, black and white among them."""
-PNG_MAX_BYTES = 96_000
-"""A preview beyond this is a photograph or a noisy scan, where JPEG may be smaller."""
-JPEG_QUALITY = 75
+SCENE, LOG, WALLS = b"OGS2", b"OGL2", b"OGW2"
+SCENE_HEADER = struct.Struct("<4s5I2d")
+LOG_HEADER = struct.Struct("<4s9I")
+WALLS_HEADER = struct.Struct("<4s2I")
 ZLIB_LEVEL = 6
-COLOUR_SPREAD = 12
-"""Channels that differ by less than this are one grey."""
 
 
 @dataclass(frozen=True, eq=False)
-class Replay:
-    """The content of a replay's bytes.
+class Scene:
+    """The content of a scene's bytes.
 
     Parameters
     ----------
-    evidence : EvidenceLog
-        The log on its grid, exact.
-    is_wall, truth : ndarray of bool, shape (R, C)
-        Wall cells of the drawing and of the ground truth.
     poses : ndarray of float32, shape (S, 3)
         Columns x_px, y_px, theta_rad, rounded to single precision.
     range_px, fov_rad : float
         Reach and opening angle of the sensor.
+    occupied : ndarray of bool, shape (H, W)
+        Wall pixels of the world.
     preview : bytes
         PNG or JPEG of the drawing.
     """
 
-    evidence: EvidenceLog
-    is_wall: BoolArray
-    truth: BoolArray
     poses: npt.NDArray[np.float32]
     range_px: float
     fov_rad: float
+    occupied: BoolArray
     preview: bytes
 
 
-def pack_replay(
-    evidence: EvidenceLog,
-    *,
-    is_wall: BoolArray,
-    truth: BoolArray,
-    trajectory: Trajectory,
-    sensor: Sensor,
-    drawing: Drawing,
+def pack_scene(
+    world: World, *, trajectory: Trajectory, sensor: Sensor, drawing: Drawing
 ) -> bytes:
-    """Return a mapping run as bytes; the module's text describes them.
+    """Return what all maps of a building share as bytes; see the module's text.
 
     Parameters
     ----------
-    evidence : EvidenceLog
-        What the readings said.
-    is_wall, truth : ndarray of bool, shape (R, C)
-        Wall cells of the drawing (the prior's) and of the ground truth.
+    world : World
+        Its wall pixels judge maps of different cell sizes.
     trajectory : Trajectory
-        The poses of the readings, one each.
+        The poses of the readings.
     sensor : Sensor
         Its range and field of view are drawn.
     drawing : Drawing
@@ -124,120 +130,119 @@ def pack_replay(
     Raises
     ------
     ParameterError
-        Where readings and poses differ in number, sizes differ, or the run is longer
-        than `MAX_ENTRIES`.
+        Where drawing and world differ in size.
     """
-    _check_sizes(evidence, is_wall, truth, trajectory, drawing)
-    grid = evidence.grid
-    cell, log_odds = _sorted_entries(evidence)
-    runs, gap, length = _runs(cell, evidence.indptr)
-    values, index = _value_index(log_odds)
+    height, width = world.occupied.shape
+    if drawing.shape != (height, width):
+        raise ParameterError(
+            f"drawing must have the size of the world, ({height}, {width}) px; got "
+            f"{drawing.shape}"
+        )
     preview = encode_preview(drawing)
-    header = HEADER.pack(
-        MAGIC,
-        *(grid.height_px, grid.width_px, grid.cell_px),
-        *(evidence.n_readings, cell.size, gap.size, values.size),
-        *(index.itemsize, len(preview), 0, 0),
-        *(sensor.range_px, sensor.fov_rad),
-    )
-    sections = (
-        header,
-        values.astype("<f8").tobytes(),
+    return _compressed(
+        SCENE_HEADER.pack(
+            SCENE,
+            *(height, width, len(trajectory), len(preview), 0),
+            *(sensor.range_px, sensor.fov_rad),
+        ),
         trajectory.poses.astype("<f4").tobytes(),
-        *(part.astype("<u4").tobytes() for part in (runs, gap, length)),
-        index.astype(f"<u{index.itemsize}").tobytes(),
-        np.packbits(is_wall).tobytes(),
-        np.packbits(truth).tobytes(),
+        np.packbits(world.occupied).tobytes(),
         preview,
     )
-    return zlib.compress(b"".join(sections), ZLIB_LEVEL)
 
 
-def unpack_replay(packed: bytes) -> Replay:
-    """Return what `pack_replay` packed.
-
-    Parameters
-    ----------
-    packed : bytes
-        One replay.
-
-    Returns
-    -------
-    Replay
-
-    Raises
-    ------
-    ParameterError
-        Where the bytes are not a replay of this version, or are cut short.
-    """
-    try:
-        return _read(zlib.decompress(packed))
-    except (zlib.error, struct.error, ValueError, IndexError) as error:
-        raise ParameterError(
-            f"packed must be a replay of version 1, whole; got {len(packed)} bytes "
-            f"that are not ({error})"
-        ) from None
-
-
-def encode_preview(drawing: Drawing) -> bytes:
-    """Return a small picture of a drawing, for the screen only.
+def pack_log(
+    evidence: EvidenceLog, *, truth: BoolArray, trajectory: Trajectory
+) -> bytes:
+    """Return a log and the cells it is judged by as bytes; see the module's text.
 
     Parameters
     ----------
-    drawing : Drawing
-        The drawing at full size.
+    evidence : EvidenceLog
+        What the readings said.
+    truth : ndarray of bool, shape (R, C)
+        The ground truth's wall cells.
+    trajectory : Trajectory
+        The poses of the readings, one each; they are packed with the scene.
 
     Returns
     -------
     bytes
-        PNG of 16 levels a channel, at most `PREVIEW_MAX_PX` long; JPEG where a
-        photograph or noisy scan is smaller that way.
+
+    Raises
+    ------
+    ParameterError
+        Where readings and poses differ in number, `truth` has another shape than the
+        grid, or the run is longer than `MAX_ENTRIES`.
     """
-    image = _screen_pixels(drawing)
-    levels = (np.rint(np.arange(256) / PREVIEW_STEP) * PREVIEW_STEP).astype(np.uint8)
-    png = _encode(".png", levels[image], [])
-    if len(png) <= PNG_MAX_BYTES:
-        return png
-    jpeg = _encode(".jpg", image, [int(cv2.IMWRITE_JPEG_QUALITY), JPEG_QUALITY])
-    return min(png, jpeg, key=len)
-
-
-def _screen_pixels(drawing: Drawing) -> ByteArray:
-    """Return the drawing at screen size, one channel where it has no colour."""
-    rgb = drawing.rgb
-    shrink = PREVIEW_MAX_PX / max(drawing.shape)
-    if shrink < 1.0:
-        height, width = (max(1, round(side * shrink)) for side in drawing.shape)
-        rgb = np.asarray(
-            cv2.resize(rgb, (width, height), interpolation=cv2.INTER_AREA), np.uint8
-        )
-    red, green, blue = cv2.split(rgb)
-    spread = max(
-        cv2.absdiff(red, green).max(initial=0), cv2.absdiff(green, blue).max(initial=0)
-    )
-    if spread < COLOUR_SPREAD:
-        return np.asarray(green, dtype=np.uint8)
-    return np.asarray(cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR), dtype=np.uint8)
-
-
-def _encode(extension: str, image: ByteArray, options: list[int]) -> bytes:
-    _, encoded = cv2.imencode(extension, image, options)
-    return encoded.tobytes()
-
-
-def _check_sizes(
-    evidence: EvidenceLog,
-    is_wall: BoolArray,
-    truth: BoolArray,
-    trajectory: Trajectory,
-    drawing: Drawing,
-) -> None:
+    _check_log(evidence, truth, trajectory)
     grid = evidence.grid
-    for name, cells in (("is_wall", is_wall), ("truth", truth)):
-        if cells.shape != grid.shape:
-            raise ParameterError(
-                f"{name} must have the grid's shape {grid.shape}; got {cells.shape}"
-            )
+    cell, log_odds = _sorted_entries(evidence)
+    runs, gap, length = _runs(cell, evidence.indptr)
+    values, index = _value_index(log_odds)
+    return _compressed(
+        LOG_HEADER.pack(
+            LOG,
+            *(grid.height_px, grid.width_px, grid.cell_px),
+            *(evidence.n_readings, cell.size, gap.size, values.size),
+            *(index.itemsize, 0),
+        ),
+        values.astype("<f8").tobytes(),
+        *(part.astype("<u4").tobytes() for part in (runs, gap, length)),
+        index.astype(f"<u{index.itemsize}").tobytes(),
+        np.packbits(truth).tobytes(),
+    )
+
+
+def pack_walls(is_wall: BoolArray) -> bytes:
+    """Return a prior's wall cells, ndarray of bool of shape (R, C), as bytes."""
+    header = WALLS_HEADER.pack(WALLS, *is_wall.shape)
+    return _compressed(header, np.packbits(is_wall).tobytes())
+
+
+def unpack_scene(packed: bytes) -> Scene:
+    """Return what `pack_scene` packed.
+
+    Raises
+    ------
+    ParameterError
+        Where the bytes are not a scene of this version, or are cut short.
+    """
+    return _unpacked(packed, SCENE_HEADER, SCENE, _read_scene)
+
+
+def unpack_log(packed: bytes) -> tuple[EvidenceLog, BoolArray]:
+    """Return the log and the truth cells that `pack_log` packed, exact.
+
+    Raises
+    ------
+    ParameterError
+        Where the bytes are not a log of this version, or are cut short.
+    """
+    return _unpacked(packed, LOG_HEADER, LOG, _read_log)
+
+
+def unpack_walls(packed: bytes) -> BoolArray:
+    """Return the wall cells that `pack_walls` packed.
+
+    Raises
+    ------
+    ParameterError
+        Where the bytes are not walls of this version, or are cut short.
+    """
+    return _unpacked(packed, WALLS_HEADER, WALLS, _read_walls)
+
+
+def _compressed(*sections: bytes) -> bytes:
+    return zlib.compress(b"".join(sections), ZLIB_LEVEL)
+
+
+def _check_log(evidence: EvidenceLog, truth: BoolArray, trajectory: Trajectory) -> None:
+    grid = evidence.grid
+    if truth.shape != grid.shape:
+        raise ParameterError(
+            f"truth must have the grid's shape {grid.shape}; got {truth.shape}"
+        )
     if evidence.cell.size > MAX_ENTRIES:
         raise ParameterError(
             f"a replay holds at most {MAX_ENTRIES:,} cell updates; this run has "
@@ -248,11 +253,6 @@ def _check_sizes(
         raise ParameterError(
             f"trajectory must have one pose for each of the {evidence.n_readings} "
             f"readings; got {len(trajectory)}"
-        )
-    if drawing.shape != (grid.height_px, grid.width_px):
-        raise ParameterError(
-            "drawing must have the size of the grid, "
-            f"({grid.height_px}, {grid.width_px}) px; got {drawing.shape}"
         )
 
 
@@ -295,42 +295,69 @@ def _value_index(
     return values, index
 
 
-def _read(content: bytes) -> Replay:
-    """Return the replay in a decompressed stream; raise where sizes do not agree."""
-    magic, *numbers = HEADER.unpack_from(content)
-    if magic != MAGIC:
-        raise ValueError("the first four bytes differ")
-    height, width, cell_px, n_readings, n_entries, n_runs, n_values = numbers[:7]
-    index_bytes, preview_bytes, _, _, range_px, fov_rad = numbers[7:]
-    grid = Grid(height_px=height, width_px=width, cell_px=cell_px)
-    at = HEADER.size
+class _Reader:
+    """The sections of a decompressed part, one after the other."""
 
-    def take(dtype: str, count: int) -> Any:
-        nonlocal at
-        part = np.frombuffer(content, dtype, count, at)
-        at += part.nbytes
+    def __init__(self, content: bytes, at: int):
+        self.content, self.at = content, at
+
+    def take(self, dtype: str, count: int) -> Any:
+        part = np.frombuffer(self.content, dtype, count, self.at)
+        self.at += part.nbytes
         return part
 
-    values = take("<f8", n_values)
-    poses = take("<f4", 3 * n_readings).reshape(-1, 3)
-    runs, gap, length = (take("<u4", n) for n in (n_readings, n_runs, n_runs))
-    index = take(f"<u{index_bytes}", n_entries)
-    bits = -(-grid.n_cells // 8)
-    is_wall, truth = (_flags(take("<u1", bits), grid) for _ in range(2))
-    return Replay(
-        evidence=_evidence(grid, runs, gap, length, values[index]),
-        is_wall=is_wall,
-        truth=truth,
-        poses=poses,
+    def flags(self, shape: tuple[int, int]) -> BoolArray:
+        count = shape[0] * shape[1]
+        bits = self.take("<u1", -(-count // 8))
+        flags = np.unpackbits(bits, count=count)
+        return np.asarray(flags.astype(np.bool_).reshape(shape))
+
+
+def _unpacked(
+    packed: bytes,
+    header: struct.Struct,
+    magic: bytes,
+    read: Callable[[tuple[Any, ...], _Reader], T],
+) -> T:
+    """Return a part that was packed; raise where its sizes do not agree."""
+    try:
+        content = zlib.decompress(packed)
+        found, *numbers = header.unpack_from(content)
+        if found != magic:
+            raise ValueError("the first four bytes differ")
+        return read(tuple(numbers), _Reader(content, header.size))
+    except (zlib.error, struct.error, ValueError, IndexError) as error:
+        raise ParameterError(
+            f"packed must be a part of a replay of version 2 ({magic.decode()}), "
+            f"whole; got {len(packed)} bytes that are not ({error})"
+        ) from None
+
+
+def _read_scene(numbers: tuple[Any, ...], reader: _Reader) -> Scene:
+    height, width, n_readings, preview_bytes, _, range_px, fov_rad = numbers
+    return Scene(
+        poses=reader.take("<f4", 3 * n_readings).reshape(-1, 3),
         range_px=range_px,
         fov_rad=fov_rad,
-        preview=take("<u1", preview_bytes).tobytes(),
+        occupied=reader.flags((height, width)),
+        preview=reader.take("<u1", preview_bytes).tobytes(),
     )
 
 
-def _flags(bits: ByteArray, grid: Grid) -> BoolArray:
-    flags = np.unpackbits(bits, count=grid.n_cells)
-    return flags.astype(np.bool_).reshape(grid.shape)
+def _read_log(
+    numbers: tuple[Any, ...], reader: _Reader
+) -> tuple[EvidenceLog, BoolArray]:
+    height, width, cell_px, n_readings, n_entries, n_runs, n_values, w, _ = numbers
+    grid = Grid(height_px=height, width_px=width, cell_px=cell_px)
+    values = reader.take("<f8", n_values)
+    runs, gap, length = (reader.take("<u4", n) for n in (n_readings, n_runs, n_runs))
+    index = reader.take(f"<u{w}", n_entries)
+    evidence = _evidence(grid, runs, gap, length, values[index])
+    return evidence, reader.flags(grid.shape)
+
+
+def _read_walls(numbers: tuple[Any, ...], reader: _Reader) -> BoolArray:
+    return reader.flags((numbers[0], numbers[1]))
 
 
 def _evidence(

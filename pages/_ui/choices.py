@@ -93,6 +93,19 @@ class PriorDrawing(Enum):
     E = "e"
 
 
+class Flaw(Enum):
+    """What the drawing of one map among several gets wrong."""
+
+    FOUND = "found"
+    THIN_1 = "thin1"
+    THIN_2 = "thin2"
+    THIN_3 = "thin3"
+    THICK_2 = "thick2"
+    SHIFTED = "shifted"
+    MISSING = "missing"
+    FALSE = "false"
+
+
 class Preset(Enum):
     """A named set of conditions."""
 
@@ -145,6 +158,14 @@ CHOICES: Mapping[Enum, str] = {
         for sample in list(PriorDrawing)
         if len(sample.value) == 1
     },
+    Flaw.FOUND: "as found",
+    Flaw.THIN_1: "walls thinned by 1 px",
+    Flaw.THIN_2: "walls thinned by 2 px",
+    Flaw.THIN_3: "walls thinned by 3 px",
+    Flaw.THICK_2: "walls thickened by 2 px",
+    Flaw.SHIFTED: "shifted by 6 px",
+    Flaw.MISSING: "a fifth of its walls missing",
+    Flaw.FALSE: "a fifth more walls, false",
     Preset.BAYES: "By Bayes' rule",
     Preset.SOURCE: "As in the source",
     Elitism.FULL: "NSGA-II",

@@ -32,7 +32,7 @@ from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
 from occsim.io.images import class_png, drawing_png, png
-from occsim.io.replay import MAX_ENTRIES, pack_replay
+from occsim.io.replay import MAX_ENTRIES
 from occsim.priors import (
     SOURCE_AXIS,
     PriorSweep,
@@ -137,32 +137,6 @@ def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingR
     return run
 
 
-def replay(building: Building, settings: Settings) -> bytes:
-    """The bytes that the map player replays."""
-    drawn = prior_key(building, settings)
-    return _replay(building.digest, settings.mapping, drawn, building, settings)
-
-
-@shared("Simulating the readings")
-def _replay(
-    digest: str,
-    mapping: MapSettings,
-    drawn: PriorKey,
-    _building: Building,
-    _settings: Settings,
-) -> bytes:
-    run = with_errors(_building, _settings)
-    with core():
-        return pack_replay(
-            run.evidence,
-            is_wall=run.wall_cells,
-            truth=run.truth_cells,
-            trajectory=run.building.trajectory,
-            sensor=mapping.sensor,
-            drawing=run.building.drawing,
-        )
-
-
 # --- Priors: sweeps and fronts --------------------------------------------------------
 
 
@@ -188,15 +162,22 @@ def prior_drawings(building: Building) -> list[PriorDrawing]:
 
 def prior_key(building: Building, settings: Settings) -> PriorKey:
     """Which drawing the prior is made from, and what that gets wrong."""
-    source = settings.prior_drawing
+    return fitting(building, settings.prior_drawing, settings.flaws)
+
+
+def fitting(building: Building, source: PriorDrawing, flaws: DrawingFlaws) -> PriorKey:
     if source not in prior_drawings(building):
         source = PriorDrawing.OWN  # chosen for a building of another size
-    return source, settings.flaws
+    return source, flaws
 
 
 def prior_mask(building: Building, settings: Settings) -> BoolArray | None:
     """The walls of the drawing with its errors; None where it has none."""
-    drawn = prior_key(building, settings)
+    return drawn_mask(building, prior_key(building, settings))
+
+
+def drawn_mask(building: Building, drawn: PriorKey) -> BoolArray | None:
+    """The same, of a drawing with errors."""
     if drawn == (PriorDrawing.OWN, DrawingFlaws()):
         return None
     return _prior_mask(building.digest, drawn, building)

@@ -24,6 +24,10 @@ FREE = "#ffffff"
 UNSEEN = "#c8c8c8"
 UNSEEN_HATCH = "#8f8f8f"
 
+# Hatching of cells that no reading has seen: one of the two shows on any grey.
+HATCH_DARK = "#000000"
+HATCH_LIGHT = "#ffffff"
+
 # Marks over a drawing or a map.
 PAPER = "#ffffff"
 WALL_MASK = "#aa4499"
@@ -42,6 +46,8 @@ SCORE_SCALE = "cividis"
 
 # The reference drawings a to e, and other series of one chart.
 SERIES = ["#0072B2", "#D55E00", "#009E73", "#AA4499", "#8a7600", "#555555"]
+# Maps A, B and C side by side: no colour of an error, readable on light and on dark.
+COLUMNS = ["#8a5fd0", "#c47f00", "#1b8a7a"]
 MARK = "#cc3377"
 # The border of what beats the blank map, seen on both ends of the scores' colours.
 BLANK_LINE = "#ff5ca8"

@@ -33,6 +33,13 @@ from pages._ui.choices import (
     PriorDrawing,
     Surface,
 )
+from pages._ui.columns import (
+    OPENING_COLUMNS,
+    Column,
+    columns_given,
+    columns_text,
+    plain,
+)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -222,6 +229,11 @@ class Settings:
     overlay: Overlay = setting(
         Overlay.NONE, label="Overlay", help="What is drawn over the map."
     )
+    columns: tuple[Column, ...] = setting(
+        OPENING_COLUMNS,
+        label="Maps compared",
+        help="The setting of each map on the page of two maps.",
+    )
     surface: Surface = setting(
         Surface.SOURCE,
         label="Surface",
@@ -326,6 +338,30 @@ class Settings:
             truth_share=self.truth_share,
         )
 
+    def mapping_of(self, column: Column) -> MapSettings:
+        """The same for one map among several."""
+        return replace(
+            self.mapping,
+            cell_px=column.cell_px,
+            sensor=replace(self.sensor, behind_hit=column.behind_hit),
+        )
+
+    @property
+    def column(self) -> Column:
+        """These settings as those of a single map; its errors are in `flaws`."""
+        names = ("prior_drawing", "p_wall", "p_space", "uninformative")
+        more = ("rule", "behind_hit", "cell_px")
+        return Column(**{name: getattr(self, name) for name in (*names, *more)})
+
+    @property
+    def page_choices(self) -> dict[str, object]:
+        """The fields of `column` that the page chooses, not the player."""
+        return {
+            "prior_drawing": self.prior_drawing.value,
+            "behind_hit": self.behind_hit.value,
+            "cell_px": self.cell_px,
+        }
+
     @property
     def flaws(self) -> DrawingFlaws:
         """What the drawing gets wrong; the walls of the prior alone suffer it."""
@@ -395,19 +431,36 @@ def decode(
     return replace(defaults or Settings(), **good), wrong
 
 
+def column_with(column: Column, changes: Mapping[str, Any]) -> Column:
+    """Return a column with some fields replaced; the same checks as for settings.
+
+    Raises
+    ------
+    ValueError
+        With one sentence: what is wrong, what is allowed, what was got.
+    """
+    default = Column()
+    checked = {
+        name: _converted(name, getattr(default, name, None), value)
+        for name, value in changes.items()
+    }
+    return replace(column, **checked)
+
+
 def _text(value: Any) -> str:
-    if isinstance(value, Enum):
-        return str(value.value)
-    if isinstance(value, bool):
-        return "1" if value else "0"
-    return repr(value)
+    return columns_text(value) if isinstance(value, tuple) else plain(value)
 
 
 def _checked(name: str, value: Any) -> Any:
     """Return a value in the type and bounds of its setting, from text or as it is."""
-    default = getattr(Settings(), name, None)
+    return _converted(name, getattr(Settings(), name, None), value)
+
+
+def _converted(name: str, default: Any, value: Any) -> Any:
     if default is None:
         raise ValueError(f"there is no setting called {name!r}")
+    if isinstance(default, tuple):
+        return value if isinstance(value, tuple) else _columns(value)
     if isinstance(default, Enum):
         return type(default)(value.value if isinstance(value, Enum) else value)
     if isinstance(default, bool):
@@ -423,3 +476,7 @@ def _checked(name: str, value: Any) -> Any:
             f"{name} must lie in {bounds.low} to {bounds.high}; got {value!r}"
         )
     return int(number) if isinstance(default, int) else number
+
+
+def _columns(text: str) -> tuple[Column, ...]:
+    return tuple(column_with(Column(), given) for given in columns_given(text))

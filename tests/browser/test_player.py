@@ -1,13 +1,12 @@
 """The map player in a real browser: its numbers equal occsim's, its controls work."""
 
-from itertools import product
-
 import numpy as np
 import pytest
 
-from occsim import Prior, Region, UpdateRule, fuse, logit
+from occsim import Prior, Region, UpdateRule, fuse, log_loss, logit, score
 from occsim.metrics import scores_by_reading
 from occsim.prior import prior_from_cells
+from pages._ui import words
 from tests.browser.players import (
     CELL_PX,
     ROOT,
@@ -26,28 +25,53 @@ from tests.browser.players import (
 pytestmark = pytest.mark.browser
 
 
-@pytest.mark.parametrize(
-    ("rule", "region"), list(product(UpdateRule, Region)), ids=lambda value: value.value
-)
-def test_scores_are_those_of_occsim_at_any_step_and_prior(page, app_url, rule, region):
+REGIONS = {"looked": Region.EXPLORED, "unseen": Region.UNEXPLORED}
+
+
+@pytest.mark.parametrize("rule", UpdateRule, ids=lambda value: value.value)
+def test_scores_are_those_of_occsim_at_any_step_and_prior(page, app_url, rule):
     log, is_wall, truth = run()
     player = open_player(page, app_url)
     choose(player, "rule", rule.value)
-    choose(player, "region", region.value)
     for p_wall, p_space in ((0.2, 0.9), (0.05, 1.0), (0.63, 0.31)):
         slide(player, "p_wall", p_wall)
         slide(player, "p_space", p_space)
-        prior_map = prior_from_cells(
-            is_wall, log.grid, Prior(p_wall=p_wall, p_space=p_space)
-        )
-        curves = scores_by_reading(log, prior_map, truth, rule, region)
+        prior = Prior(p_wall=p_wall, p_space=p_space)
+        prior_map = prior_from_cells(is_wall, log.grid, prior)
         for step in (0, 1, 137, log.n_readings, 136):
             scrub(player, step)
-            counts = (curves.tp, curves.fp, curves.fn, curves.tn)
-            expected = [int(count[step]) for count in counts]
-            assert shown(player, "tp", "fp", "fn", "tn") == expected, step
-            explored = curves.coverage[step] * log.grid.n_cells
-            assert shown(player, "explored") == [round(explored)]
+            numbers = inspect(player)
+            now = fuse(log, prior_map, rule, n_readings=step)
+            for name, region in REGIONS.items():
+                at = score(now, truth, region)
+                counts = [at.tp, at.fp, at.fn, at.tn]
+                assert numbers[name]["counts"] == counts, (step, name)
+                bits = log_loss(now, truth, region)
+                found = numbers[name]["bits"]
+                assert found == pytest.approx(bits, abs=1e-9) or np.isnan(bits)
+            everywhere = log_loss(now, truth, Region.ALL)
+            assert numbers["bits"] == pytest.approx(everywhere, abs=1e-9)
+            assert shown(player, "explored") == [int((now.n_updates > 0).sum())]
+
+
+def test_the_table_says_each_score_in_both_regions_and_the_blank_maps(page, app_url):
+    log, is_wall, truth = run()
+    player = open_player(page, app_url)
+    scrub(player, 137)
+    for prior, cells in (
+        (Prior(), ".table tbody td:not(.blank)"),
+        (Prior.uninformative(), ".table tbody td.blank"),
+    ):
+        start = prior_from_cells(is_wall, log.grid, prior)
+        now = fuse(log, start, UpdateRule.PRIOR_ONCE, n_readings=137)
+        expected = []
+        for name in ("precision", "recall", "f2", "bits"):
+            for region in REGIONS.values():
+                at = score(now, truth, region)
+                bits = name == "bits"
+                value = log_loss(now, truth, region) if bits else getattr(at, name)
+                expected.append(f"{value:.3f}" if bits else words.percent(value))
+        assert player.locator(cells).all_inner_texts() == expected
 
 
 @pytest.mark.parametrize("rule", UpdateRule)
@@ -148,7 +172,7 @@ def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
     page.mouse.click(box["x"] + inspect(player)["bars"][1], box["y"] + 20)
     assert shown(player, "step") == [first + 1]
     page.keyboard.press("Escape")
-    assert player.locator("[data-part=scores]").is_visible()
+    assert player.locator("[data-part=tiles]").is_visible()
 
 
 def test_hovering_shows_a_cells_numbers_on_both_pictures(page, app_url):
@@ -334,11 +358,11 @@ def test_a_screen_reader_hears_the_scores_when_the_replay_pauses(page, app_url):
     assert player.evaluate("root => root.heard") == []
     player.get_by_role("button", name="Pause").click()
     wait_until(page, player, "root => root.heard.length")
-    (words,) = player.evaluate("root => root.heard")
+    (said,) = player.evaluate("root => root.heard")
     (step,) = shown(player, "step")
-    recall = player.locator("[data-score=recall] .value").inner_text()
-    assert words.startswith(f"reading {step} of {run()[0].n_readings}: ")
-    assert f"Recall {recall}" in words
+    recall = player.locator("[data-value='looked recall']").inner_text()
+    assert said.startswith(f"reading {step} of {run()[0].n_readings}: looked at: ")
+    assert f"Recall {recall}" in said
 
 
 def test_a_screen_reader_hears_the_pinned_cell(page, app_url):
@@ -352,9 +376,9 @@ def test_a_screen_reader_hears_the_pinned_cell(page, app_url):
     *_, pinned = player.evaluate("root => root.heard")
     n_cols = run()[0].grid.n_cols
     row, col = divmod(inspect(player)["pin"], n_cols)
-    for words in (hovered, pinned):
-        assert f"Cell row {row}, column {col}: class " in words
-        assert "p_free 0." in words
+    for said in (hovered, pinned):
+        assert f"Cell row {row}, column {col}: class " in said
+        assert "p_free 0." in said
 
 
 def test_a_document_imposed_in_mid_play_stops_the_replay(page, app_url):

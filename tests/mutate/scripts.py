@@ -8,6 +8,9 @@ CELLS = "tests/node/cells.test.mjs"
 REPLAY = "tests/node/replay.test.mjs"
 PLAYER = "tests/node/player.test.mjs"
 WORDS = "tests/node/words.test.mjs"
+SCORES = "tests/node/scores.test.mjs"
+VERDICTS = "tests/node/verdicts.test.mjs"
+HEADERS = "tests/node/headers.test.mjs"
 IN_BROWSER = "tests/browser/test_player.py::test_"
 PIXELS = "tests/browser/test_painted_pixels.py::test_"
 GREY = f"{PIXELS}each_cell_has_the_grey_of_its_belief"
@@ -18,15 +21,15 @@ _ROWS = (
     # file, old, new, the tests that must fail, why
     (
         "player/model.js",
-        "logOdds < -model.decisionEps",
-        "logOdds <= model.decisionEps",
+        "logOdds < -column.decisionEps",
+        "logOdds <= column.decisionEps",
         MODEL,
         "ties counted as wall",
     ),
     (
         "player/model.js",
-        "logOdds < -model.decisionEps",
-        "logOdds < model.decisionEps",
+        "logOdds < -column.decisionEps",
+        "logOdds < column.decisionEps",
         f"{PIXELS}an_exact_tie_is_not_painted_as_wall",
         "ties painted as wall",
     ),
@@ -39,8 +42,8 @@ _ROWS = (
     ),
     (
         "player/model.js",
-        "(model.once ? 1 : 1 - k)",
-        "(model.once ? 1 : -k)",
+        "(column.once ? 1 : 1 - k)",
+        "(column.once ? 1 : -k)",
         MODEL,
         "prior subtracted once too often",
     ),
@@ -53,8 +56,8 @@ _ROWS = (
     ),
     (
         "player/model.js",
-        "[model.priorScale * p_space, model.priorScale * p_wall]",
-        "[model.priorScale * p_wall, model.priorScale * p_space]",
+        "[column.priorScale * p_space, column.priorScale * p_wall]",
+        "[column.priorScale * p_wall, column.priorScale * p_space]",
         MODEL,
         "priors of wall and space cells swapped",
     ),
@@ -66,11 +69,67 @@ _ROWS = (
         "a step back leaves an entry behind",
     ),
     (
+        "player/scores.js",
+        "tallyCell(k > 0 ? looked : unseen,",
+        "tallyCell(looked,",
+        SCORES,
+        "cells seen for the first time counted as unseen too",
+    ),
+    (
+        "player/scores.js",
+        "const x = isWall ? logOdds : -logOdds;",
+        "const x = isWall ? -logOdds : logOdds;",
+        SCORES,
+        "bits of the wrong class",
+    ),
+    (
+        "player/scores.js",
+        "return n ? sum / n : NaN;",
+        "return sum / n;",
+        SCORES,
+        "bits of a region without cells",
+    ),
+    (
+        "player/scores.js",
+        "sign * values[step] - SAME_SCORE",
+        "sign * values[step] + SAME_SCORE",
+        SCORES,
+        "a map worth more than its equal",
+    ),
+    (
         "player/model.js",
-        'if (region !== (k > 0 ? "unexplored" : "explored")) counts[was]--',
-        "if (k > 0) counts[was]--",
+        "if (!truth[c]) free[isWall[c]]++;",
+        "if (truth[c]) free[isWall[c]]++;",
         MODEL,
-        "unseen cells counted twice",
+        "a calibrated pair of walls, not of free cells",
+    ),
+    (
+        "player/verdicts.js",
+        "=== Boolean(comparison.truth[u]) ? 1 : 2",
+        "=== Boolean(comparison.truth[u]) ? 2 : 1",
+        VERDICTS,
+        "the wrong map called right",
+    ),
+    (
+        "player/verdicts.js",
+        "a.log.counts[ca] > 0 && b.log.counts[cb] > 0",
+        "a.log.counts[ca] > 0",
+        VERDICTS,
+        "a cell that one map has not looked at",
+    ),
+    (
+        "player/verdicts.js",
+        "const u = (after + i) % nCells;",
+        "const u = (after + i - 1) % nCells;",
+        VERDICTS,
+        "the same cell pinned again and again",
+    ),
+    (
+        "player/headers.js",
+        'if (word === "flaw" && setting.uninformative) return "none";',
+        "",
+        HEADERS,
+        "errors of a drawing that is not there",
     ),
     (
         "player/model.js",
@@ -80,10 +139,10 @@ _ROWS = (
         "missed walls taken for free cells",
     ),
     (
-        "player/model.js",
+        "player/scores.js",
         "4 * fn + fp",
         "fn + 4 * fp",
-        MODEL,
+        SCORES,
         "F2 that weighs precision twice",
     ),
     (
@@ -109,13 +168,6 @@ _ROWS = (
     ),
     (
         "player/cells.js",
-        "inks.region !== (model.counts[c] > 0 ?",
-        "inks.region !== (model.counts[c] >= 0 ?",
-        CELLS,
-        "unseen cells painted as scored",
-    ),
-    (
-        "player/cells.js",
         'overlay === "truth" ? colours.groundTruth : colours.wallMask',
         'overlay === "truth" ? colours.wallMask : colours.groundTruth',
         GREY,
@@ -123,43 +175,43 @@ _ROWS = (
     ),
     (
         "player/cells.js",
-        "picture.stale ||= to > from;",
-        "picture.stale ||= to < from;",
+        "growBox(layer.changed, c % nCols, Math.floor(c / nCols));",
+        "",
         CELLS,
         "a step that is not shown",
     ),
     (
         "player/cells.js",
-        "counts[c] ? 0 : 255 << 24",
-        "counts[c] ? 255 << 24 : 0",
+        "counts[c] ? 0 : OPAQUE",
+        "counts[c] ? OPAQUE : 0",
         OUTCOMES,
         "seen cells hatched",
     ),
     (
         "player/cells.js",
-        "if (inks.isErrors) drawHatch(",
-        'if (inks.region === "all") drawHatch(',
+        "  drawHatch(picture, grid, context);\n",
+        "",
         OUTCOMES,
         "unseen cells not hatched",
     ),
     (
         "player/draw.js",
-        "const half = model.fovRad / 2;",
-        "const half = model.fovRad;",
+        "const half = scene.fovRad / 2;",
+        "const half = scene.fovRad;",
         CONE,
         "a cone twice as wide",
     ),
     (
         "player/draw.js",
-        "context.arc(x, y, model.rangePx,",
-        "context.arc(x, y, 1.2 * model.rangePx,",
+        "context.arc(x, y, scene.rangePx,",
+        "context.arc(x, y, 1.2 * scene.rangePx,",
         CONE,
         "a cone that reaches too far",
     ),
     (
         "player/draw.js",
-        "Math.max(0, model.step - 1)",
-        "Math.min(model.nReadings - 1, model.step)",
+        "Math.max(0, state.step - 1)",
+        "Math.min(419, state.step)",
         CONE,
         "the robot drawn a reading ahead",
     ),
@@ -193,21 +245,21 @@ _ROWS = (
     ),
     (
         "player/playback.js",
-        "const target = clamp(step, 0, p.model.nReadings);",
+        "const target = clamp(step, 0, p.scene.nReadings);",
         "const target = step;",
         PLAYER,
         "a step beyond the readings",
     ),
     (
         "player/player.js",
-        "state.step = clamp(state.step, 0, model.nReadings);",
+        "state.step = clamp(state.step, 0, scene.nReadings);",
         "",
         PLAYER,
         "a restored step beyond the readings",
     ),
     (
         "player/player.js",
-        "if (p.pin === null) state.pin_px = null;",
+        "state.pin_px = p.pin;",
         "",
         PLAYER,
         "a pin outside the drawing that is sent to Python",
@@ -236,7 +288,7 @@ _ROWS = (
     (
         "player/player.js",
         "  showStep(p);\n",
-        "  showStep(p);\n  if (p.series) say(p, stateWords(p));\n",
+        "  showStep(p);\n  if (p.columns) say(p, stateWords(p));\n",
         f"{IN_BROWSER}a_screen_reader_hears_the_scores_when_the_replay_pauses",
         "scores announced on every frame",
     ),
@@ -249,8 +301,8 @@ _ROWS = (
     ),
     (
         "player/terms.js",
-        "isDone: term.reading < step,",
-        "isDone: term.reading <= step,",
+        "isDone: term.reading < step",
+        "isDone: term.reading <= step",
         WORDS,
         "a reading shown as done one step early",
     ),
@@ -263,8 +315,8 @@ _ROWS = (
     ),
     (
         "player/inspector.js",
-        'declaresWall(model, logOdds) ? "wall" : "no wall"',
-        'declaresWall(model, logOdds) ? "no wall" : "wall"',
+        'declaresWall(column, logOdds) ? "wall" : "no wall"',
+        'declaresWall(column, logOdds) ? "no wall" : "wall"',
         f"{IN_BROWSER}hovering_shows_a_cells_numbers_on_both_pictures",
         "a cell whose class is shown the wrong way round",
     ),

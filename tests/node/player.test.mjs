@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { load } from "./scripts.mjs";
-import { CONSTANTS, randomReplay } from "./worlds.mjs";
+import { columnOf, randomReplay } from "./worlds.mjs";
 
 const player = load("player");
 
@@ -15,13 +15,10 @@ globalThis.cancelAnimationFrame = () => {};
 globalThis.requestAnimationFrame = () => 1;
 beforeEach(() => (committed = []));
 
+const COLUMN = { p_wall: 0.2, p_space: 0.9, uninformative: false, rule: "prior_once" };
 const DOCUMENT = {
   rev: 1,
-  p_wall: 0.2,
-  p_space: 0.9,
-  uninformative: false,
-  rule: "prior_once",
-  region: "explored",
+  columns: [COLUMN],
   overlay: "none",
   step: 0,
   speed: 5,
@@ -30,15 +27,20 @@ const DOCUMENT = {
 };
 
 function playerOf(changes = {}) {
-  const model = player.newModel(randomReplay(1).replay, CONSTANTS);
-  const p = { root, model, state: { ...DOCUMENT, ...changes }, playing: false, tab: "scores" };
-  p.header = { speeds: [5, 15, 30, 60, 120] };
-  p.picture = { inks: null, pixels: new Uint32Array(model.nCells), colours: COLOURS };
-  player.setPrior(model, p.state);
-  player.paintAll(p.picture, model, p.state);
+  const { replay } = randomReplay(1);
+  const column = columnOf(player, replay, COLUMN);
+  column.picture = { cells: layerOf(30), unseen: layerOf(30), inks: player.inksOf(COLOURS, "none") };
+  const pixels = { cellPx: 1, nCols: 18, nRows: 15, widthPx: 18, heightPx: 15 };
+  const scene = { nReadings: 40, pixels };
+  const logs = new Map([["log", column.log]]);
+  const state = { ...DOCUMENT, ...changes };
+  const p = { root, scene, logs, columns: [column], state, playing: false, tab: "scores" };
   player.fitState(p);
+  player.seek(column.log, p.state.step);
   return p;
 }
+
+const layerOf = (n) => ({ pixels: new Uint32Array(n), changed: player.newBox() });
 
 const COLOURS = Object.fromEntries(
   [
@@ -50,7 +52,6 @@ const COLOURS = Object.fromEntries(
     "falseWall",
     "missedWall",
     "free",
-    "unseen",
   ].map((name) => [name, "#123456"]),
 );
 
@@ -64,7 +65,7 @@ test("a replay advances by its speed and keeps the fraction", () => {
     return p.state.step;
   });
   assert.deepEqual(steps, [0, 1, 1, 4]);
-  assert.equal(p.model.step, 4);
+  assert.equal(p.columns[0].log.step, 4);
 });
 
 test("a replay stops at its last reading, once, and says so", () => {
@@ -101,28 +102,31 @@ test("a step by hand stops the replay and stays within the readings", () => {
   ]) {
     player.play(p);
     player.walkTo(p, to);
-    assert.deepEqual([p.state.step, p.model.step, p.playing], [step, step, false]);
+    assert.deepEqual([p.state.step, p.columns[0].log.step, p.playing], [step, step, false]);
   }
   assert.deepEqual(committed, [21, 0, 40]);
 });
 
-test("unless one was chosen, the speed makes a replay last about ten seconds", () => {
-  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 40), 5);
-  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 420), 30);
-  assert.equal(player.usualSpeed([5, 15, 30, 60, 120], 5000), 120);
-  assert.equal(playerOf({ speed: null }).state.speed, 5);
+test("unless a speed was chosen, a replay lasts ten seconds", () => {
+  const p = playerOf({ speed: null });
+  player.play(p);
+  for (let i = 0; i < 99; i++) player.advance(p, 0.1);
+  assert.deepEqual([p.state.step, p.playing], [39, true]);
+  player.advance(p, 0.2);
+  assert.deepEqual([p.state.step, p.playing, p.state.speed], [40, false, null]);
 });
 
 // ---- choices restored over other data: 5 x 6 cells of 3 px ------------------------------
 
 test("a step beyond the end becomes the end", () => {
   const p = playerOf({ step: 500 });
-  assert.deepEqual([p.state.step, p.model.step, p.position], [40, 40, 40]);
+  assert.deepEqual([p.state.step, p.position], [40, 40]);
 });
 
 test("a pin stays on the cell that now holds its point", () => {
   const p = playerOf({ pin_px: [17.9, 14.9] });
-  assert.deepEqual([p.pin, p.tab], [29, "cell"]);
+  const { log } = p.columns[0];
+  assert.deepEqual([player.cellHolding(log, ...p.pin), p.tab], [29, "cell"]);
 });
 
 test("a pin outside the drawing is dropped, not drawn", () => {
@@ -163,8 +167,8 @@ test("a player that comes back unasked goes on where it was", () => {
 test("another rev imposes its document", () => {
   const state = player.adopted(headerOf("b", "x", { rev: 3, step: 7 }), null);
   state.step = 20;
-  const next = player.adopted(headerOf("b", "x", { rev: 4, step: 9, p_wall: 0.5 }), state);
-  assert.deepEqual([next.step, next.p_wall], [9, 0.5]);
+  const next = player.adopted(headerOf("b", "x", { rev: 4, step: 9, overlay: "truth" }), state);
+  assert.deepEqual([next.step, next.overlay], [9, "truth"]);
 });
 
 test("a word that was overtaken by what was played gives way to it", () => {

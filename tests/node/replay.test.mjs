@@ -5,42 +5,57 @@ import { load } from "./scripts.mjs";
 
 const player = load("player");
 
-// The layout of occsim/io/replay.py, version 1, written down number by number: 7 x 10 px
-// in cells of 4, so 2 x 3 cells; two readings of the cells {1, 2, 5} and {0, 1}.
-function written() {
-  const words = [0x3152474f, 7, 10, 4, 2, 5, 3, 2, 1, 4, 0, 0];
-  const parts = [
-    Uint32Array.from(words),
-    Float64Array.of(20, 0.5),
-    Float64Array.of(-2, 1.5),
-    Float32Array.of(1, 2, 3, 4, 5, 6),
-    Uint32Array.of(2, 1), // runs of each reading
-    Uint32Array.of(1, 2, 0), // gaps
-    Uint32Array.of(2, 1, 2), // lengths
-    Uint8Array.of(0, 1, 1, 0, 0), // values of the entries
-    Uint8Array.of(0b10010000), // wall cells 0 and 3
-    Uint8Array.of(0b00000100), // truth: cell 5
-    Uint8Array.of(9, 8, 7, 6), // preview
-  ];
-  return Buffer.concat(parts.map((part) => Buffer.from(part.buffer)));
-}
+const bufferOf = (...parts) =>
+  new Uint8Array(Buffer.concat(parts.map((part) => Buffer.from(part.buffer)))).buffer;
 
-test("a replay is read as its layout says", () => {
-  const bytes = new Uint8Array(written());
-  const replay = player.decodeReplay(bytes.buffer);
-  const { heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings } = replay;
+// The layouts of occsim/io/replay.py, version 2, written down number by number.
+
+// 7 x 10 px in cells of 4, so 2 x 3 cells; two readings of the cells {1, 2, 5} and {0, 1}.
+test("a log is read as its layout says", () => {
+  const words = [0x324c474f, 7, 10, 4, 2, 5, 3, 2, 1, 0];
+  const log = player.decodeLog(
+    bufferOf(
+      Uint32Array.from(words),
+      Float64Array.of(-2, 1.5),
+      Uint32Array.of(2, 1), // runs of each reading
+      Uint32Array.of(1, 2, 0), // gaps
+      Uint32Array.of(2, 1, 2), // lengths
+      Uint8Array.of(0, 1, 1, 0, 0), // values of the entries
+      Uint8Array.of(0b00000100), // truth: cell 5
+    ),
+  );
+  const { heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings } = log;
   assert.deepEqual(
     [heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings],
     [7, 10, 4, 2, 3, 6, 2],
   );
-  assert.deepEqual([replay.rangePx, replay.fovRad], [20, 0.5]);
-  assert.deepEqual([...replay.indptr], [0, 3, 5]);
-  assert.deepEqual([...replay.cell], [1, 2, 5, 0, 1]);
-  assert.deepEqual([...replay.logOdds], [-2, 1.5, 1.5, -2, -2]);
-  assert.deepEqual([...replay.poses], [1, 2, 3, 4, 5, 6]);
-  assert.deepEqual([...replay.isWall], [1, 0, 0, 1, 0, 0]);
-  assert.deepEqual([...replay.truth], [0, 0, 0, 0, 0, 1]);
-  assert.deepEqual([...replay.preview], [9, 8, 7, 6]);
+  assert.deepEqual([...log.indptr], [0, 3, 5]);
+  assert.deepEqual([...log.cell], [1, 2, 5, 0, 1]);
+  assert.deepEqual([...log.logOdds], [-2, 1.5, 1.5, -2, -2]);
+  assert.deepEqual([...log.truth], [0, 0, 0, 0, 0, 1]);
+});
+
+test("a scene is read as its layout says", () => {
+  const scene = player.decodeScene(
+    bufferOf(
+      Uint32Array.of(0x3253474f, 2, 3, 2, 4, 0),
+      Float64Array.of(20, 0.5),
+      Float32Array.of(1, 2, 3, 4, 5, 6),
+      Uint8Array.of(0b10010000), // wall pixels 0 and 3
+      Uint8Array.of(9, 8, 7, 6), // preview
+    ),
+  );
+  assert.deepEqual([scene.heightPx, scene.widthPx, scene.nReadings], [2, 3, 2]);
+  assert.deepEqual([scene.rangePx, scene.fovRad], [20, 0.5]);
+  assert.deepEqual([...scene.poses], [1, 2, 3, 4, 5, 6]);
+  assert.deepEqual([...scene.pixels.truth], [1, 0, 0, 1, 0, 0]);
+  assert.deepEqual([scene.pixels.cellPx, scene.pixels.nRows, scene.pixels.nCols], [1, 2, 3]);
+  assert.deepEqual([...scene.preview], [9, 8, 7, 6]);
+});
+
+test("walls are read as their layout says", () => {
+  const walls = bufferOf(Uint32Array.of(0x3257474f, 2, 3), Uint8Array.of(0b10010000));
+  assert.deepEqual([...player.decodeWalls(walls)], [1, 0, 0, 1, 0, 0]);
 });
 
 test("header and payloads come apart, also from the middle of a buffer", () => {

@@ -24,12 +24,12 @@ test("an undefined score is a dash", () => {
 });
 
 // Prior -1, then a reading to 0.5 and one to -0.25.
-test("a waterfall goes from one total to the next and knows what is still to come", () => {
+test("a ladder goes from one total to the next and knows what is still to come", () => {
   const terms = [
     { reading: 2, total: 0.5 },
     { reading: 9, total: -0.25 },
   ];
-  const bars = player.waterfall({ prior: -1, terms }, 9);
+  const bars = player.ladderOf({ prior: -1, terms }, 9);
   assert.deepEqual(
     bars.map(({ from, to }) => [from, to]),
     [

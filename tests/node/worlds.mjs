@@ -5,6 +5,13 @@ import { seeded } from "./scripts.mjs";
 // Log-odds of a probability, on the lattice of occsim.logodds.
 export const logit = (p) => Math.round(Math.log(p / (1 - p)) * 2 ** 36) / 2 ** 36;
 
+// A map of a replay under a setting, as the player makes it.
+export function columnOf(player, replay, setting) {
+  const column = player.newColumn(player.newLog(replay), replay.isWall, CONSTANTS);
+  player.setPrior(column, setting);
+  return column;
+}
+
 export const CONSTANTS = { decisionEps: 1e-9, priorScale: 0.9 };
 
 // A replay from readings, each a list of [cell, log-odds].
@@ -12,13 +19,13 @@ export function replayOf(nRows, nCols, cellPx, readings, { isWall, truth }) {
   const indptr = [0];
   for (const reading of readings) indptr.push(indptr.at(-1) + reading.length);
   const poses = readings.flatMap((_, i) => [i, i, 0]);
+  const size = { widthPx: nCols * cellPx, heightPx: nRows * cellPx };
   return {
     nRows,
     nCols,
     nCells: nRows * nCols,
     cellPx,
-    widthPx: nCols * cellPx,
-    heightPx: nRows * cellPx,
+    ...size,
     nReadings: readings.length,
     indptr: Uint32Array.from(indptr),
     cell: Uint32Array.from(readings.flat().map(([cell]) => cell)),
@@ -66,8 +73,10 @@ export function naiveLogOdds({ readings, isWall }, step, { p_wall, p_space, rule
   });
 }
 
-export function naiveCounts(world, step, state) {
+// The counts and the bits of the cells of a region, "looked" or "unseen".
+export function naiveCounts(world, step, state, region) {
   const counts = [0, 0, 0, 0];
+  let bits = 0;
   const seen = new Set(
     world.readings
       .slice(0, step)
@@ -75,26 +84,18 @@ export function naiveCounts(world, step, state) {
       .map(([cell]) => cell),
   );
   naiveLogOdds(world, step, state).forEach((l, cell) => {
-    if (state.region === (seen.has(cell) ? "unexplored" : "explored")) return;
+    if (region === (seen.has(cell) ? "unseen" : "looked")) return;
     const isDeclared = l < -1e-9;
+    bits += Math.log2(1 + Math.exp(world.truth[cell] ? l : -l)); // -log2 p(truth)
     counts[isDeclared ? (world.truth[cell] ? 0 : 1) : world.truth[cell] ? 2 : 3]++;
   });
-  return { counts, explored: seen.size };
+  return { counts, bits, explored: seen.size };
 }
 
 export const STATES = ["prior_once", "subtract_prior"].flatMap((rule) =>
-  ["explored", "all", "unexplored"].flatMap((region) =>
-    [
-      [0.2, 0.9],
-      [1, 1],
-      [0.05, 0.31],
-    ].map(([p_wall, p_space]) => ({
-      rule,
-      region,
-      p_wall,
-      p_space,
-      uninformative: false,
-      overlay: "none",
-    })),
-  ),
+  [
+    [0.2, 0.9],
+    [1, 1],
+    [0.05, 0.31],
+  ].map(([p_wall, p_space]) => ({ rule, p_wall, p_space, uninformative: false })),
 );

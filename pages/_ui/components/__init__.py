@@ -14,7 +14,7 @@ SHARED_SCRIPTS = ("bytes.js", "colours.js", "dom.js")
 def component(
     name: str, folder: Path, scripts: tuple[str, ...]
 ) -> Callable[..., Mapping[str, object]]:
-    """Return the component `name`; its html and css are named after the folder.
+    """Return the component `name`; its html is named after the folder.
 
     Registered on each run: a registry lives as long as its server, which in tests is
     shorter than this module. Registering the same definition again has no effect.
@@ -53,6 +53,6 @@ def _sources(folder: Path, scripts: tuple[str, ...]) -> dict[str, str]:
 
     return {
         "html": text(folder / f"{folder.name}.html"),
-        "css": text(SHARED / "shared.css", folder / f"{folder.name}.css"),
+        "css": text(SHARED / "shared.css", *sorted(folder.glob("*.css"))),
         "js": text(*script_paths(folder, scripts)),
     }

@@ -47,7 +47,9 @@ from pages._ui.state.pairs import (
 )
 from pages._ui.state.replay import (
     PLAYER_KEY,
+    TWO_MAPS_KEY,
     forget_player,
+    parts_held,
     player_document,
     take_from_player,
 )
@@ -67,6 +69,7 @@ __all__ = [
     "OPENING",
     "OWN",
     "PLAYER_KEY",
+    "TWO_MAPS_KEY",
     "attempt",
     "bind",
     "bind_chart",
@@ -96,6 +99,7 @@ __all__ = [
     "open_own",
     "open_project",
     "pair",
+    "parts_held",
     "player_document",
     "prepare",
     "prior",

@@ -9,12 +9,14 @@ import streamlit as st
 from occsim import load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
-from pages._ui.components.player import SHARED, PlayerDocument
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
 from pages._ui.state.replay import (
+    NEW_PLAYED,
+    SHARED,
+    TWO_MAPS_PATH,
     forget_player,
     go_to_place,
-    open_half_way,
+    open_players,
     place_in_replay,
 )
 from pages._ui.state.works import WORKS
@@ -23,6 +25,8 @@ OWN = "own"
 OPENING = "b"
 """The drawing that the app opens with: parts of furniture are taken for walls, so
 that the prior errs visibly and the Pareto front has several points."""
+OPENING_OF = {TWO_MAPS_PATH: "c"}
+"""Pages that open with another drawing, if none was chosen."""
 GONE = (
     "The building of this link is no longer on this server: the server was "
     "restarted, or the building has expired. Open your project file on the page "
@@ -38,13 +42,22 @@ def prepare(path: str) -> None:
     # A component that leaves the screen loses its state.
     if state.get("path") != path:
         state.path = path
+        _open_page_drawing(path)
         forget_player()
+
+
+def _open_page_drawing(path: str) -> None:
+    """Show the drawing that a page opens with, unless the student chose something."""
+    is_untouched = not st.session_state.chosen and settings() == defaults(choice())
+    if is_untouched:
+        _show(OPENING_OF.get(path, OPENING))
 
 
 def _open_link(path: str, query: Mapping[str, str]) -> None:
     """Start a session from a link; it is read once."""
     state = st.session_state
     state.own, state.work = None, None
+    state.path = path
     state.message, state.generation = "", 0
     state.past = state.future = ()
     notices = []
@@ -53,15 +66,17 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
         state.work = query["work"], state.own
         notices += [] if state.own else [GONE]
     wrong = []
-    asked = query.get("drawing", OPENING)
+    opening = OPENING_OF.get(path, OPENING)
+    asked = query.get("drawing", opening)
     if asked not in sample_names():
         wrong.append("drawing")
-        asked = OPENING
+        asked = opening
     state.choice = OWN if state.own and "drawing" not in query else asked
+    state.chosen = state.choice == OWN or "drawing" in query
     state.settings, more = decode(query, defaults(state.choice))
     wrong += more
-    state.played = PlayerDocument()
-    open_half_way(building())
+    state.played = dict(NEW_PLAYED)
+    open_players(building())
     go_to_place(query)
     if wrong:
         notices.append(
@@ -103,7 +118,7 @@ def reset_all() -> None:
     state = st.session_state
     state.link_notice = state.link_notice[0], ""
     renew_widgets()
-    open_half_way(building())
+    open_players(building())
 
 
 def renew_widgets() -> None:
@@ -160,10 +175,15 @@ def choose(name: str) -> None:
     """Choose a drawing; the sensor's range follows the length of its doors."""
     if name not in choices():
         return  # a choice made before an undo that removed the drawing
+    st.session_state.chosen = True
+    _show(name)
+
+
+def _show(name: str) -> None:
     st.session_state.choice = name
     range_px = defaults(name).range_px
     st.session_state.settings = replace(settings(), range_px=range_px)
-    open_half_way(building())
+    open_players(building())
 
 
 def building() -> Building:

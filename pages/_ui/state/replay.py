@@ -1,69 +1,116 @@
-"""The document last sent to the map player, and the student's choices in it."""
+"""The documents last sent to the map players, and the student's choices in them."""
 
 import contextlib
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import streamlit as st
 
 from occsim.building import Building
 from pages._ui.components.player import (
-    SHARED,
     PlayerDocument,
     decode_commit,
     encode_document,
+    held_parts,
 )
-from pages._ui.settings import with_changes
+from pages._ui.settings import Settings, with_changes
 
 PLAYER_KEY = "map_player"
+TWO_MAPS_KEY = "two_maps"
+TWO_MAPS_PATH = "pages/3_Two_maps.py"
+OF_COLUMN = ("p_wall", "p_space", "uninformative", "rule")
+"""Settings of the app that the single map's player holds."""
+SHARED = (*OF_COLUMN, "overlay", "columns")
+"""Settings of the app that some player holds as well."""
+
+NEW_PLAYED = {PLAYER_KEY: PlayerDocument(), TWO_MAPS_KEY: PlayerDocument()}
+"""What has been played in a new session: nothing."""
 
 
-def player_document() -> PlayerDocument:
-    """The document that the player starts from; the same object until it must change.
+def player_here() -> str:
+    """The key of the player that a link to this page speaks of."""
+    is_two = st.session_state.get("path") == TWO_MAPS_PATH
+    return TWO_MAPS_KEY if is_two else PLAYER_KEY
 
-    The player owns its priors and its step while it is on the screen. A document with a
-    new ``rev`` replaces it: after a reset, another drawing, or another page.
+
+def player_document(key: str) -> PlayerDocument:
+    """The document that a player starts from; the same object until it must change.
+
+    The player owns its choices and its step while it is on the screen. A document with
+    a new ``rev`` replaces it: after a reset, another drawing, or another page.
     """
     state = st.session_state
-    if state.imposed is None:
-        shared = {name: getattr(st.session_state.settings, name) for name in SHARED}
-        state.imposed = state.played = replace(
-            state.played, rev=state.played.rev + 1, **shared
+    if key not in state.imposed:
+        played = state.played[key]
+        made = replace(
+            played, rev=played.rev + 1, **_from_settings(key, state.settings)
         )
-    return state.imposed
+        state.imposed = state.imposed | {key: made}
+        state.played = state.played | {key: made}
+    return state.imposed[key]
+
+
+def _from_settings(key: str, settings: Settings) -> dict[str, Any]:
+    if key == TWO_MAPS_KEY:
+        return {"columns": settings.columns, "overlay": settings.overlay}
+    return {"columns": (settings.column,), "overlay": settings.overlay}
+
+
+def take_from_player(key: str) -> PlayerDocument:
+    """Store the student's choices in a player, without sending them back.
+
+    Called before the player is drawn, so that what it needs next is sent in this run.
+    """
+    document = decode_commit(_commit(key), player_document(key))
+    state = st.session_state
+    changes = {"overlay": document.overlay}
+    if key == TWO_MAPS_KEY:
+        changes["columns"] = document.columns
+    else:
+        [column] = document.columns
+        changes |= {name: getattr(column, name) for name in OF_COLUMN}
+    state.settings = with_changes(state.settings, changes)
+    state.played = state.played | {key: document}
+    return document
+
+
+def parts_held(key: str) -> frozenset[str]:
+    """The parts of a replay that the browser has."""
+    return held_parts(_commit(key))
+
+
+def _commit(key: str) -> object:
+    return (st.session_state.get(key) or {}).get("committed")
 
 
 def forget_player() -> None:
-    """Impose a new document at the next run."""
-    st.session_state.imposed = None
+    """Impose new documents at the next run."""
+    st.session_state.imposed = {}
 
 
-def take_from_player(document: PlayerDocument | None) -> None:
-    """Store the student's choices in the player, without sending them back."""
-    if document is None:
-        return
-    shared = {name: getattr(document, name) for name in SHARED}
-    st.session_state.settings = with_changes(st.session_state.settings, shared)
-    st.session_state.played = document
+def opening_step(key: str, building: Building) -> int:
+    """The step at which a player opens: the middle of the replay; two maps at 0."""
+    return 0 if key == TWO_MAPS_KEY else len(building.trajectory) // 2
 
 
-def half_way(building: Building) -> int:
-    """The step at which the player opens: the middle of the replay."""
-    return len(building.trajectory) // 2
-
-
-def open_half_way(building: Building) -> None:
-    """Let the player open in the middle of the replay."""
-    st.session_state.played = replace(
-        st.session_state.played, step=half_way(building), pin_px=None
-    )
+def open_players(building: Building) -> None:
+    """Let the players open where they do on a building that was just chosen."""
+    st.session_state.played = {
+        key: replace(
+            played, step=opening_step(key, building), pin_px=None, predicted=None
+        )
+        for key, played in st.session_state.played.items()
+    }
     forget_player()
 
 
 def place_in_replay(building: Building) -> dict[str, str]:
     """The position in the replay, as texts for a link; defaults are left out."""
-    played: PlayerDocument = st.session_state.played
-    texts = {} if played.step == half_way(building) else {"step": str(played.step)}
+    key = player_here()
+    played: PlayerDocument = st.session_state.played[key]
+    opening = opening_step(key, building)
+    texts = {} if played.step == opening else {"step": str(played.step)}
     if played.pin_px is not None:
         texts["pin"] = ",".join(f"{at:g}" for at in played.pin_px)
     if played.speed is not None:
@@ -73,7 +120,8 @@ def place_in_replay(building: Building) -> dict[str, str]:
 
 def go_to_place(texts: Mapping[str, str]) -> None:
     """Open the replay at the position in a link, if it is valid."""
-    played: PlayerDocument = st.session_state.played
+    key = player_here()
+    played: PlayerDocument = st.session_state.played[key]
     commit = encode_document(played)
     for name in ("step", "speed"):
         with contextlib.suppress(ValueError):
@@ -81,4 +129,6 @@ def go_to_place(texts: Mapping[str, str]) -> None:
     with contextlib.suppress(ValueError):
         if "pin" in texts:
             commit["pin_px"] = [float(at) for at in texts["pin"].split(",")]
-    st.session_state.played = decode_commit(commit, played)
+    st.session_state.played = st.session_state.played | {
+        key: decode_commit(commit, played)
+    }

@@ -1,18 +1,52 @@
 // The cells as a picture of one pixel each, coloured by belief or by correctness, and
 // the hatching on those that no reading has seen.
 
-const HATCH_GAP = 5; // on the screen, px
+const HATCH_GAP = 6; // on the screen, px
+const HATCH_ALPHA = 0.3; // a dark and a light line: one of them shows on any grey
 const TINT = 0.55; // share of an overlay's colour over the grey beneath
 
-function newPicture(model, colours) {
-  const canvas = offscreen(model.nCols, model.nRows);
-  const image = canvas.getContext("2d").createImageData(model.nCols, model.nRows);
-  const pixels = new Uint32Array(image.data.buffer);
-  return { canvas, image, pixels, colours, inks: null, stale: true };
+// One pixel a cell, and the box of cells that changed since it was last drawn.
+function newLayer({ nCols, nRows }) {
+  const canvas = offscreen(nCols, nRows);
+  const image = canvas.getContext("2d").createImageData(nCols, nRows);
+  return { canvas, image, pixels: new Uint32Array(image.data.buffer), changed: newBox() };
+}
+
+const newBox = () => ({ x0: Infinity, y0: Infinity, x1: -1, y1: -1 });
+
+function growBox(box, x, y) {
+  if (x < box.x0) box.x0 = x;
+  if (y < box.y0) box.y0 = y;
+  if (x > box.x1) box.x1 = x;
+  if (y > box.y1) box.y1 = y;
+}
+
+const wholeBox = ({ nCols, nRows }) => ({ x0: 0, y0: 0, x1: nCols - 1, y1: nRows - 1 });
+
+function setPixel(layer, nCols, c, value) {
+  if (layer.pixels[c] === value) return;
+  layer.pixels[c] = value;
+  growBox(layer.changed, c % nCols, Math.floor(c / nCols));
+}
+
+// Puts the changed pixels on the layer's canvas; returns their box, or null.
+function flush(layer) {
+  const box = layer.changed;
+  if (box.x1 < 0) return null;
+  const { x0, y0 } = box;
+  const size = [box.x1 - x0 + 1, box.y1 - y0 + 1];
+  layer.canvas.getContext("2d").putImageData(layer.image, 0, 0, x0, y0, ...size);
+  layer.changed = newBox();
+  return box;
+}
+
+// A picture of cells and its mask of unseen ones.
+function newPicture(grid, colours) {
+  return { cells: newLayer(grid), unseen: newLayer(grid), colours, inks: null, hatch: null };
 }
 
 // The colours of one view of the map.
-function inksOf(colours, { overlay, region }) {
+function inksOf(colours, overlay) {
   const [dark, light] = [rgbOf(colours.beliefOccupied), rgbOf(colours.beliefFree)];
   const tint = rgbOf(overlay === "truth" ? colours.groundTruth : colours.wallMask);
   const levels = Array.from({ length: 256 }, (_, i) => mixed(dark, light, i / 255));
@@ -22,46 +56,47 @@ function inksOf(colours, { overlay, region }) {
     grey: Uint32Array.from(levels, pixelOf),
     tinted: Uint32Array.from(levels, (rgb) => pixelOf(mixed(rgb, tint, TINT))),
     outcomes: outcomes.map((hex) => pixelOf(rgbOf(hex))),
-    unseen: pixelOf(rgbOf(colours.unseen)),
-    marks: { wall_mask: "isWall", truth: "truth" }[overlay],
-    isErrors: overlay === "errors",
-    region,
+    overlay,
   };
 }
 
-function colourAt(inks, model, c) {
-  const logOdds = logOddsAt(model, c);
-  if (!inks.isErrors) {
-    const level = Math.round(255 * pFreeOf(logOdds));
-    return (model[inks.marks]?.[c] ? inks.tinted : inks.grey)[level];
-  }
-  const isScored = inks.region !== (model.counts[c] > 0 ? "unexplored" : "explored");
-  return isScored ? inks.outcomes[outcomeAt(model, c, logOdds)] : inks.unseen;
+function colourAt(inks, column, c) {
+  const logOdds = logOddsAt(column, c);
+  if (inks.overlay === "errors") return inks.outcomes[outcomeAt(column, c, logOdds)];
+  const level = Math.round(255 * pFreeOf(logOdds));
+  return (isMarked(inks.overlay, column, c) ? inks.tinted : inks.grey)[level];
 }
 
-function paintAll(picture, model, state) {
-  picture.inks = inksOf(picture.colours, state);
-  for (let c = 0; c < model.nCells; c++) picture.pixels[c] = colourAt(picture.inks, model, c);
-  picture.stale = true;
+function isMarked(overlay, { isWall, log }, c) {
+  if (overlay === "wall_mask") return isWall[c];
+  return overlay === "truth" && log.truth[c];
+}
+
+const OPAQUE = (255 << 24) >>> 0;
+
+function paintCell(picture, column, c) {
+  const { nCols, counts } = column.log;
+  setPixel(picture.cells, nCols, c, colourAt(picture.inks, column, c));
+  setPixel(picture.unseen, nCols, c, counts[c] ? 0 : OPAQUE);
+}
+
+function paintAll(picture, column, overlay) {
+  picture.inks = inksOf(picture.colours, overlay);
+  for (let c = 0; c < column.log.nCells; c++) paintCell(picture, column, c);
 }
 
 // Recolours only the cells of these entries: what a step of the replay changed.
-function paintEntries(picture, model, [from, to]) {
-  for (let e = from; e < to; e++) {
-    const c = model.cell[e];
-    picture.pixels[c] = colourAt(picture.inks, model, c);
-  }
-  picture.stale ||= to > from;
+function paintEntries(picture, column, [from, to]) {
+  const { cell } = column.log;
+  for (let e = from; e < to; e++) paintCell(picture, column, cell[e]);
 }
 
 // ---- onto a canvas whose units are px of the drawing ---------------------------------
 
-function drawPicture(picture, model, context) {
-  const { canvas, image, inks } = picture;
-  if (picture.stale) canvas.getContext("2d").putImageData(image, 0, 0);
-  drawCells(context, canvas, model);
-  if (inks.isErrors) drawHatch(picture, model, context);
-  picture.stale = false;
+function drawPicture(picture, grid, context) {
+  flush(picture.cells);
+  drawCells(context, picture.cells.canvas, grid);
+  drawHatch(picture, grid, context);
 }
 
 function drawCells(context, canvas, { nCols, nRows, cellPx }) {
@@ -69,48 +104,56 @@ function drawCells(context, canvas, { nCols, nRows, cellPx }) {
   context.drawImage(canvas, 0, 0, nCols * cellPx, nRows * cellPx);
 }
 
-function drawHatch(picture, model, context) {
+function drawHatch(picture, grid, context) {
   const { width, height } = context.canvas;
-  const { hatch } = picture;
-  const isSame = hatch?.width === width && hatch.height === height;
+  const changed = flush(picture.unseen);
+  const isSame = picture.hatch?.width === width && picture.hatch.height === height;
   if (!isSame) picture.hatch = offscreen(width, height);
-  if (!isSame || picture.stale) renewHatch(picture, model, context.getTransform());
+  const box = isSame ? changed : wholeBox(grid);
+  if (box) renewHatch(picture, grid, context.getTransform(), box);
   drawUnscaled(context, picture.hatch);
 }
 
-// A pattern, kept only where the mask of unseen cells is opaque.
-function renewHatch({ hatch, colours }, model, transform) {
+// A pattern, kept only where the mask of unseen cells is opaque; within a box of cells.
+function renewHatch({ hatch, unseen, colours }, grid, transform, { x0, y0, x1, y1 }) {
   const context = hatch.getContext("2d");
-  context.reset();
+  context.save();
+  const at = (cells, scale) => cells * grid.cellPx * scale;
+  // Whole pixels of the canvas, so that a part redrawn joins the rest without a seam.
+  const left = Math.floor(at(x0, transform.a));
+  const top = Math.floor(at(y0, transform.d));
+  const right = Math.ceil(at(x1 + 1, transform.a));
+  const bottom = Math.ceil(at(y1 + 1, transform.d));
+  context.beginPath();
+  context.rect(left, top, right - left, bottom - top);
+  context.clip();
+  context.clearRect(left, top, right - left, bottom - top);
   context.setTransform(transform);
-  drawCells(context, unseenMask(model), model);
+  drawCells(context, unseen.canvas, grid);
   context.resetTransform();
   context.globalCompositeOperation = "source-in";
-  context.fillStyle = hatchPattern(context, colours.unseenHatch);
-  context.fillRect(0, 0, hatch.width, hatch.height);
+  context.fillStyle = hatchPattern(context, colours);
+  context.fillRect(left, top, right - left, bottom - top);
+  context.restore();
 }
 
-function unseenMask({ nCols, nRows, counts }) {
-  const mask = offscreen(nCols, nRows);
-  const context = mask.getContext("2d");
-  const image = context.createImageData(nCols, nRows);
-  const alpha = new Uint32Array(image.data.buffer);
-  for (let c = 0; c < alpha.length; c++) alpha[c] = counts[c] ? 0 : 255 << 24;
-  context.putImageData(image, 0, 0);
-  return mask;
-}
-
-function hatchPattern(context, colour) {
+function hatchPattern(context, colours) {
   const side = Math.round(HATCH_GAP * pixelRatio());
   const tile = offscreen(side, side);
   const pen = tile.getContext("2d");
-  pen.strokeStyle = colour;
-  pen.lineWidth = 0.8 * pixelRatio();
-  pen.beginPath();
-  for (const shift of [-side, 0, side]) {
-    pen.moveTo(shift, side);
-    pen.lineTo(shift + side, 0);
+  pen.lineWidth = pixelRatio();
+  pen.globalAlpha = HATCH_ALPHA;
+  for (const [colour, aside] of [
+    [colours.hatchDark, 0],
+    [colours.hatchLight, 1.4 * pixelRatio()],
+  ]) {
+    pen.strokeStyle = colour;
+    pen.beginPath();
+    for (const shift of [-side, 0, side]) {
+      pen.moveTo(shift + aside - 1, side + 1);
+      pen.lineTo(shift + aside + side + 1, -1);
+    }
+    pen.stroke();
   }
-  pen.stroke();
   return context.createPattern(tile, "repeat");
 }

@@ -1,16 +1,19 @@
-// The prior, the update rule, what the map shows and which cells are scored.
+// One map's controls: the prior, the update rule, and what the map shows.
 
 const SLIDERS = { p_space: 0, p_wall: 1 }; // with the class of their cells
-const OPTIONS = { rule: "rules", overlay: "overlays", region: "regions" };
+const OPTIONS = { rule: "rules", overlay: "overlays" };
 
 const sliderOf = (p, name) => p.root.querySelector(`[data-slider=${name}]`);
+
+// Rule and prior are the first map's; what is shown holds for all.
+const holderOf = ({ state }, name) => (name === "overlay" ? state : state.columns[0]);
 
 function buildControls(p, { texts, limits }) {
   for (const name of Object.keys(SLIDERS)) {
     const input = sliderOf(p, name).querySelector("input");
     Object.assign(input, limits[name]);
     input.addEventListener("input", () => {
-      p.state[name] = Number(input.value);
+      p.state.columns[0][name] = Number(input.value);
       recolour(p);
     });
     input.addEventListener("change", () => commit(p, COMMIT_DELAY));
@@ -33,7 +36,7 @@ function radio(p, name, { value, label, about }) {
 }
 
 function choose(p, name, value) {
-  p.state[name] = value;
+  holderOf(p, name)[name] = value;
   recolour(p);
   commit(p);
 }
@@ -42,29 +45,29 @@ function showControls(p) {
   const { root, state } = p;
   for (const name of Object.keys(OPTIONS)) {
     for (const input of root.querySelectorAll(`input[name=${name}]`)) {
-      input.checked = input.value === state[name];
+      input.checked = input.value === holderOf(p, name)[name];
     }
   }
-  partOf(root, "uninformative").checked = state.uninformative;
+  partOf(root, "uninformative").checked = state.columns[0].uninformative;
+  partOf(root, "overlay").value = state.overlay;
   for (const name of Object.keys(SLIDERS)) showSlider(p, name);
   const keys = state.overlay === "errors" ? errorKeys(p) : beliefKeys(p);
-  partOf(root, "map-legend").replaceChildren(...keys);
+  p.legend.replaceChildren(...keys, legendKey("hatch", "not looked at"));
 }
 
 function showSlider(p, name) {
-  const { uninformative } = p.state;
+  const [setting] = p.state.columns;
+  const [column] = p.columns;
   const box = sliderOf(p, name);
-  const pFree = p.model.pFreePrior[SLIDERS[name]];
-  const chosen = p.state[name].toFixed(2);
-  const factors = `${p.model.priorScale} \u00d7 ${chosen} = ${pFree.toFixed(3)}`;
-  Object.assign(box.querySelector("input"), { value: p.state[name], disabled: uninformative });
+  const pFree = column.pFreePrior[SLIDERS[name]];
+  const chosen = setting[name].toFixed(2);
+  const factors = `${column.priorScale} \u00d7 ${chosen} = ${pFree.toFixed(3)}`;
+  const { uninformative } = setting;
+  Object.assign(box.querySelector("input"), { value: setting[name], disabled: uninformative });
   box.classList.toggle("off", uninformative);
   box.querySelector(".value").textContent = chosen;
   box.querySelector("small").replaceChildren(...maths(`p_free = ${uninformative ? pFree : factors}`));
 }
-
-const legendKey = (mark, label) =>
-  element("span", { class: "key" }, element("i", { class: `mark-${mark}` }), label);
 
 const errorKeys = ({ header }) =>
   header.texts.errors.map(({ mark, label }) => legendKey(mark, label));

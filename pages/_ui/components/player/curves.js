@@ -1,23 +1,35 @@
-// The tiles below the map: each score over the readings, as a number and as a curve.
+// The charts below the map: scores over the readings. Each is drawn once for a set of
+// maps; a step of the replay shows more of it and moves the marks.
 
-const CURVE_ROOM = { left: 4, right: 32, top: 6, bottom: 6 };
+const CURVE_ROOM = { left: 4, right: 36, top: 6, bottom: 6 };
+const DASHES = [[], [5, 3], [2, 2]];
+const BLANK_LINE = { dash: [], width: 1 };
 
-function buildTiles(p, scores) {
-  p.tiles = scores.map(({ name, label, about }) => {
-    const value = element("span", { class: "value" });
-    const naming = { role: "img", "aria-label": `${label} over the readings` };
-    const canvas = element("canvas", naming);
-    const head = element("div", { class: "tile-head" }, element("b", {}, label), value);
-    const tile = element("div", { class: "tile", "data-score": name }, head, canvas);
-    tile.append(element("small", {}, about));
-    partOf(p.root, "scores").append(tile);
-    scrubOn(p, canvas);
-    return { name, label, value, canvas };
-  });
+const UNITS = {
+  share: { text: percent, most: () => 1, tick: (v) => `${Math.round(100 * v)} %` },
+  bits: { text: (v) => inBits(v), most: (m) => Math.max(1, m), tick: (v) => fixed(v, 1) },
+  cells: { text: (v) => String(v), most: (m) => Math.max(1, m), tick: (v) => String(Math.round(v)) },
+};
+
+function buildTiles(p) {
+  p.root.querySelectorAll(".tile").forEach((tile) => tile.remove());
+  p.tiles = p.header.texts[isSeveral(p) ? "curves" : "scores"].map((spec) => newTile(p, spec));
+  for (const { tile } of p.tiles) partOf(p.root, "tiles").append(tile);
+}
+
+function newTile(p, { name, label, about, unit, region }) {
+  const values = element("span", { class: "values" });
+  const naming = { role: "img", "aria-label": `${label} over the readings` };
+  const canvas = element("canvas", naming);
+  const tile = element("div", { class: "tile", "data-score": name });
+  tile.append(element("div", { class: "tile-head" }, element("b", {}, label), values), canvas);
+  tile.append(element("small", {}, about));
+  scrubOn(p, canvas);
+  return { name, region, unit: UNITS[unit], tile, values, canvas, picture: null };
 }
 
 function scrubOn(p, canvas) {
-  const go = (event) => goTo(p, stepAtCurve(canvas, event, p.model.nReadings));
+  const go = (event) => goTo(p, stepAtCurve(canvas, event, p.scene.nReadings));
   canvas.addEventListener("pointerdown", (event) => {
     pause(p);
     canvas.setPointerCapture(event.pointerId);
@@ -36,53 +48,127 @@ function stepAtCurve(canvas, event, last) {
   return Math.round(clamp(share, 0, 1) * last);
 }
 
-function showScores(p) {
-  for (const { name, value, canvas } of p.tiles) {
-    value.textContent = percent(p.series[name][p.state.step]);
-    drawCurve(canvas, p.series[name], p.state.step, p.theme);
+// ---- lines -------------------------------------------------------------------------------
+
+const scoreOf = (series, region, name) => (region === "all" ? series.all : series[region])[name];
+
+// Of one map both regions, of several the chart's region; the blank map always.
+function linesOf(p, { name, region }) {
+  const { colours } = p.header;
+  const blank = { ...BLANK_LINE, colour: colours.blank, label: "blank" };
+  const blankOf = (where) => scoreOf(p.columns[0].blank, where, name);
+  if (!isSeveral(p)) {
+    const [column] = p.columns;
+    const line = { colour: p.theme.ink, width: 1.75 };
+    return [
+      { ...blank, values: blankOf("looked") },
+      { ...line, dash: DASHES[1], values: column.series.unseen[name] },
+      { ...line, dash: DASHES[0], values: column.series.looked[name] },
+    ];
+  }
+  const maps = p.columns.map(({ series }, i) => ({
+    label: LETTERS[i],
+    values: scoreOf(series, region, name),
+    colour: colours.columns[i],
+    dash: DASHES[i],
+    width: 1.75,
+  }));
+  return [{ ...blank, values: blankOf(region) }, ...maps.reverse()];
+}
+
+function showCurves(p) {
+  for (const tile of p.tiles) {
+    tile.lines ??= linesOf(p, tile);
+    if (isSeveral(p)) showValues(tile, p.state.step);
+    drawTile(tile, p.state.step, p.theme);
   }
 }
 
-// 0 to 100 % whatever the values; faint after the step.
-function drawCurve(canvas, values, step, theme) {
-  const { context, width, height } = fitted(canvas);
+function showValues({ lines, values, unit }, step) {
+  const texts = lines.map((line) => `${line.label} ${unit.text(line.values[step])}`).reverse();
+  if (values.children.length !== lines.length) {
+    const parts = lines.map(({ colour }) => element("span", { style: `--mark: ${colour}` }));
+    values.replaceChildren(...parts.reverse());
+  }
+  texts.forEach((text, i) => setText(values.children[i], text));
+}
+
+// After a change of a map, the theme or the size, all lines are drawn anew.
+function forgetCurves(p) {
+  for (const tile of p.tiles ?? []) Object.assign(tile, { lines: null, picture: null });
+}
+
+function drawTile(tile, step, theme) {
+  const { context, width, height } = fitted(tile.canvas);
   if (width === 0) return;
-  const last = Math.max(1, values.length - 1);
-  const { left, right, top, bottom } = CURVE_ROOM;
-  const x = (s) => left + (s / last) * (width - left - right);
-  const y = (v) => height - bottom - v * (height - top - bottom);
-  drawLevels(context, y, [left, width - right], theme);
-  context.lineJoin = "round";
-  traceCurve(context, values, step, last, x, y);
-  strokeLine(context, theme.ink, 1.25, 0.3);
-  traceCurve(context, values, 0, step, x, y);
-  strokeLine(context, theme.ink, 1.75);
-  traceLine(context, x(step), 1, x(step), height - 1);
-  strokeLine(context, theme.accent, 1);
-  if (Number.isNaN(values[step])) return;
-  context.fillStyle = theme.accent;
+  const axes = axesOf(tile, width, height);
+  if (tile.picture?.width !== tile.canvas.width) tile.picture = pictureOfLines(tile, axes);
+  drawLevels(context, axes, theme);
+  const at = axes.x(step);
+  // Faint after the step.
+  context.globalAlpha = 0.3;
+  context.drawImage(tile.picture, 0, 0, width, height);
+  context.globalAlpha = 1;
+  context.save();
   context.beginPath();
-  context.arc(x(step), y(values[step]), 3, 0, TWO_PI);
+  context.rect(0, 0, at, height);
+  context.clip();
+  context.drawImage(tile.picture, 0, 0, width, height);
+  context.restore();
+  traceLine(context, at, 1, at, height - 1);
+  strokeLine(context, theme.accent, 1);
+  for (const { values, colour } of tile.lines) drawMark(context, axes, step, values[step], colour);
+}
+
+function axesOf({ lines, unit }, width, height) {
+  const last = Math.max(1, lines[0].values.length - 1);
+  const { left, right, top, bottom } = CURVE_ROOM;
+  // 0 to 100 % whatever the values; what has no upper end, up to its highest value.
+  const highest = lines.map(({ values }) => values.reduce((m, v) => (v > m ? v : m), 0));
+  const most = unit.most(Math.max(...highest));
+  const x = (s) => left + (s / last) * (width - left - right);
+  const y = (v) => height - bottom - (v / most) * (height - top - bottom);
+  return { x, y, most, last, x0: left, x1: width - right, tick: unit.tick };
+}
+
+function pictureOfLines({ canvas, lines }, axes) {
+  const picture = offscreen(canvas.width, canvas.height);
+  const context = picture.getContext("2d");
+  context.scale(pixelRatio(), pixelRatio());
+  context.lineJoin = "round";
+  for (const { values, colour, width, dash } of lines) {
+    context.setLineDash(dash);
+    traceCurve(context, values, axes);
+    strokeLine(context, colour, width);
+  }
+  return picture;
+}
+
+function drawMark(context, { x, y }, step, value, colour) {
+  if (Number.isNaN(value)) return;
+  context.fillStyle = colour;
+  context.beginPath();
+  context.arc(x(step), y(value), 3, 0, TWO_PI);
   context.fill();
 }
 
-function drawLevels(context, y, [x0, x1], theme) {
+function drawLevels(context, { y, x0, x1, most, tick }, theme) {
   context.font = `10px ${theme.font}`;
   context.fillStyle = theme.muted;
   context.textBaseline = "middle";
-  for (const level of [0, 0.5, 1]) {
-    const at = Math.round(y(level)) + 0.5;
+  for (const share of [0, 0.5, 1]) {
+    const at = Math.round(y(share * most)) + 0.5;
     traceLine(context, x0, at, x1, at);
     strokeLine(context, theme.line, 1);
-    if (level !== 0.5) context.fillText(`${100 * level} %`, x1 + 5, y(level));
+    if (share !== 0.5) context.fillText(tick(share * most), x1 + 5, y(share * most));
   }
 }
 
 // Undefined scores leave a gap.
-function traceCurve(context, values, from, to, x, y) {
+function traceCurve(context, values, { x, y, last }) {
   context.beginPath();
   let isOpen = false;
-  for (let s = from; s <= to; s++) {
+  for (let s = 0; s <= last; s++) {
     const isDefined = !Number.isNaN(values[s]);
     if (isDefined) context[isOpen ? "lineTo" : "moveTo"](x(s), y(values[s]));
     isOpen = isDefined;

@@ -1,29 +1,36 @@
-// What is drawn on the two canvases, in px of the drawing.
+// What is drawn on the stage's canvases, in px of the drawing.
 
 const TWO_PI = 2 * Math.PI;
 const ROBOT_RADIUS = 5; // on the screen, px
 
-function drawStage(p) {
-  if (p.scale === 0) return;
-  drawOn(p, p.canvases.drawing, (context) => {
+const PAINTERS = {
+  drawing: (p, _, context) => {
     drawUnscaled(context, p.paper);
     drawPath(p, context);
     drawSensor(p, context, true);
-  });
-  drawOn(p, p.canvases.map, (context) => {
-    drawPicture(p.picture, p.model, context);
+  },
+  map: (p, { column }, context) => {
+    const { picture, log } = p.columns[column];
+    drawPicture(picture, log, context);
     drawSensor(p, context, false);
-  });
+  },
+  difference: (p, _, context) => drawPicture(p.comparison.picture, p.comparison, context),
+};
+
+function drawStage(p) {
+  if (p.scale === 0) return;
+  for (const view of p.views) drawView(p, view);
 }
 
-function drawOn(p, canvas, drawBelow) {
-  const context = canvas.getContext("2d");
+function drawView(p, view) {
+  const context = view.canvas.getContext("2d");
   const scale = p.scale * pixelRatio();
   context.setTransform(scale, 0, 0, scale, 0, 0);
-  drawBelow(context);
+  PAINTERS[view.kind](p, view, context);
   drawRobot(p, context);
-  if (p.pin !== null) drawPin(p, context);
-  if (p.hover !== null) drawCrosshair(p, context);
+  const grid = gridUnder(p, view);
+  if (p.pin) drawPin(p, grid, context);
+  if (p.hover) drawCrosshair(p, grid, context);
 }
 
 // A picture that has the canvas's own pixels.
@@ -46,12 +53,12 @@ function stroke(p, context, colour, width, alpha = 1) {
 const poseOf = ({ poses }, index) => poses.subarray(3 * index, 3 * index + 3);
 
 // The reading just taken; before the first one, the next reading.
-const currentReading = (model) => Math.max(0, model.step - 1);
+const currentReading = ({ state }) => Math.max(0, state.step - 1);
 
-function tracePath(model, context, from, to) {
+function tracePath(scene, context, from, to) {
   context.beginPath();
   for (let i = from; i < to; i++) {
-    const [x, y] = poseOf(model, i);
+    const [x, y] = poseOf(scene, i);
     if (i === from) context.moveTo(x, y);
     else context.lineTo(x, y);
   }
@@ -59,26 +66,26 @@ function tracePath(model, context, from, to) {
 
 function drawPath(p, context) {
   const { path } = p.header.colours;
-  const here = currentReading(p.model);
+  const here = currentReading(p);
   context.lineJoin = "round";
-  tracePath(p.model, context, here, p.model.nReadings);
+  tracePath(p.scene, context, here, p.scene.nReadings);
   stroke(p, context, path, 1.2, 0.28);
-  tracePath(p.model, context, 0, here + 1);
+  tracePath(p.scene, context, 0, here + 1);
   stroke(p, context, path, 1.5, 0.8);
 }
 
 function drawSensor(p, context, isFilled) {
-  const { model, scale } = p;
+  const { scene, scale } = p;
   const { sensor, halo } = p.header.colours;
-  const [x, y, theta] = poseOf(model, currentReading(model));
-  const half = model.fovRad / 2;
-  const isCone = model.fovRad < TWO_PI - 1e-6;
+  const [x, y, theta] = poseOf(scene, currentReading(p));
+  const half = scene.fovRad / 2;
+  const isCone = scene.fovRad < TWO_PI - 1e-6;
   context.beginPath();
   if (isCone) context.moveTo(x, y);
-  context.arc(x, y, model.rangePx, theta - half, theta + half);
+  context.arc(x, y, scene.rangePx, theta - half, theta + half);
   if (isCone) context.closePath();
   context.fillStyle = sensor;
-  context.globalAlpha = model.step === 0 ? 0.08 : 0.18;
+  context.globalAlpha = p.state.step === 0 ? 0.08 : 0.18;
   if (isFilled) context.fill();
   stroke(p, context, halo, 3, 0.75);
   context.setLineDash([4 / scale, 3 / scale]);
@@ -88,7 +95,7 @@ function drawSensor(p, context, isFilled) {
 
 function drawRobot(p, context) {
   const { robot, halo } = p.header.colours;
-  const [x, y, theta] = poseOf(p.model, currentReading(p.model));
+  const [x, y, theta] = poseOf(p.scene, currentReading(p));
   const radius = ROBOT_RADIUS / p.scale;
   context.beginPath();
   context.arc(x, y, radius, 0, TWO_PI);
@@ -99,9 +106,9 @@ function drawRobot(p, context) {
   stroke(p, context, halo, 1.5);
 }
 
-function drawPin(p, context) {
+function drawPin(p, grid, context) {
   const { halo, crosshair } = p.header.colours;
-  const { x, y, width, height } = boxOf(p.model, p.pin);
+  const { x, y, width, height } = boxOf(grid, cellHolding(grid, ...p.pin));
   const room = 2.5 / p.scale;
   context.beginPath();
   context.rect(x - room, y - room, width + 2 * room, height + 2 * room);
@@ -109,11 +116,12 @@ function drawPin(p, context) {
   stroke(p, context, crosshair, 2);
 }
 
-function drawCrosshair(p, context) {
+function drawCrosshair(p, grid, context) {
   const { crosshair } = p.header.colours;
-  const { widthPx, heightPx } = p.model;
-  const { x, y, width, height } = boxOf(p.model, p.hover);
-  const [midX, midY] = centreOf(p.model, p.hover);
+  const { widthPx, heightPx } = grid;
+  const cell = cellHolding(grid, ...p.hover);
+  const { x, y, width, height } = boxOf(grid, cell);
+  const [midX, midY] = centreOf(grid, cell);
   context.beginPath();
   context.moveTo(0, midY);
   context.lineTo(x, midY);

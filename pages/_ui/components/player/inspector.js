@@ -1,47 +1,42 @@
-// One cell: hover shows its numbers, a click pins it and shows its readings one by one.
+// One cell: hover shows its numbers in all views, a click pins it and shows its readings
+// one by one. Hovered and pinned places are points of the drawing, px: maps of another
+// cell size show the cell that holds the same point.
 
-function listenToCells(p) {
-  for (const canvas of Object.values(p.canvases)) {
-    canvas.addEventListener("pointermove", (event) => {
-      const cell = isInert(p) || event.pointerType === "touch" ? null : cellAt(p, event);
-      if (cell !== null) hoverOn(p, cell, event);
-    });
-    canvas.addEventListener("pointerleave", () => leaveCell(p));
-    canvas.addEventListener("blur", () => leaveCell(p));
-    canvas.addEventListener("click", (event) => {
-      p.root.focus({ preventScroll: true });
-      const cell = isInert(p) ? null : cellAt(p, event);
-      if (cell !== null) togglePin(p, cell);
-    });
-  }
+function listenToView(p, view) {
+  const { canvas } = view;
+  canvas.addEventListener("pointermove", (event) => {
+    const cell = isInert(p) || event.pointerType === "touch" ? null : cellAt(p, view, event);
+    if (cell !== null) hoverOn(p, view, cell, event);
+  });
+  canvas.addEventListener("pointerleave", () => leaveCell(p));
+  canvas.addEventListener("blur", () => leaveCell(p));
+  canvas.addEventListener("click", (event) => {
+    p.root.focus({ preventScroll: true });
+    const cell = isInert(p) ? null : cellAt(p, view, event);
+    if (cell !== null) togglePin(p, view, cell);
+  });
+}
+
+function listenToTabs(p) {
   for (const tab of p.root.querySelectorAll("[data-tab]")) {
     tab.addEventListener("click", () => openTab(p, tab.dataset.tab));
   }
-  listenToTerms(p, partOf(p.root, "terms"));
 }
 
-function listenToTerms(p, canvas) {
-  canvas.addEventListener("click", (event) => {
-    const bar = barAt(p.terms, event);
-    if (bar) walkTo(p, bar.term ? bar.term.reading + 1 : 0);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    const bar = barAt(p.terms, event);
-    if (bar) showCard(p, event, ...termCard(p, bar));
-    else hideCard(p);
-  });
-  canvas.addEventListener("pointerleave", () => hideCard(p));
-}
+const isInert = (p) => !p.columns || p.state.compact;
 
-const isInert = (p) => !p.model || p.state.compact;
+const isAt = (point, grid, cell) => point !== null && cellHolding(grid, ...point) === cell;
 
 // ---- hovering ------------------------------------------------------------------------
 
-function hoverOn(p, cell, point) {
-  const isNew = cell !== p.hover;
-  p.hover = cell;
-  if (isNew) drawStage(p);
-  showCard(p, point, cellTitle(p.model, cell), cellFacts(p.model, cell));
+function hoverOn(p, view, cell, pointer) {
+  const grid = gridUnder(p, view);
+  const isNew = !isAt(p.hover, grid, cell);
+  if (isNew) {
+    p.hover = centreOf(grid, cell);
+    drawStage(p);
+  }
+  showCard(p, pointer, cellTitle(grid, cell), factsIn(p, view, cell));
 }
 
 function leaveCell(p) {
@@ -51,13 +46,15 @@ function leaveCell(p) {
   drawStage(p);
 }
 
-// On the map canvas, reached by Tab, arrows walk from cell to cell and Enter pins.
+// On a map's canvas, reached by Tab, arrows walk from cell to cell and Enter pins.
 // Returns whether the key was one of these.
-function cellKey(p, { key }) {
-  const { nCols, nCells } = p.model;
-  const from = p.hover ?? p.pin ?? Math.floor(nCells / 2);
+function cellKey(p, view, { key }) {
+  const { log } = p.columns[view.column];
+  const { nCols, nCells } = log;
+  const start = p.hover ?? p.pin;
+  const from = start ? cellHolding(log, ...start) : Math.floor(nCells / 2);
   if (key === "Enter") {
-    togglePin(p, from);
+    togglePin(p, view, from);
     return true;
   }
   const move = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -nCols, ArrowDown: nCols }[key];
@@ -65,8 +62,8 @@ function cellKey(p, { key }) {
   const to = from + move;
   const leavesRow = Math.abs(move) === 1 && Math.floor(to / nCols) !== Math.floor(from / nCols);
   if (to >= 0 && to < nCells && !leavesRow) {
-    hoverOn(p, to, pointAt(p, to));
-    say(p, cellWords(p.model, to));
+    hoverOn(p, view, to, screenPoint(p, view, centreOf(log, to)));
+    say(p, cellWords(p.columns[view.column], to));
   }
   return true;
 }
@@ -74,8 +71,9 @@ function cellKey(p, { key }) {
 // ---- pinning -------------------------------------------------------------------------
 
 // Pinning the pinned cell again unpins it.
-function togglePin(p, cell) {
-  setPin(p, cell === p.pin ? null : cell);
+function togglePin(p, view, cell) {
+  const grid = gridUnder(p, view);
+  setPin(p, isAt(p.pin, grid, cell) ? null : centreOf(grid, cell));
 }
 
 function unpin(p) {
@@ -83,10 +81,9 @@ function unpin(p) {
 }
 
 // The pin is kept in px of the drawing, so that it survives another cell size.
-function setPin(p, cell) {
-  p.pin = cell;
-  p.state.pin_px = cell === null ? null : centreOf(p.model, cell);
-  openTab(p, cell === null ? "scores" : "cell");
+function setPin(p, point) {
+  p.pin = p.state.pin_px = point;
+  openTab(p, point === null ? "scores" : "cell");
   commit(p, COMMIT_DELAY);
 }
 
@@ -95,51 +92,39 @@ function openTab(p, name) {
   refresh(p);
 }
 
-// ---- facts of a cell
-// --------------------------------------------------------------------
+// ---- facts of a cell -----------------------------------------------------------------
 
-function cellTitle(model, c) {
-  const [row, column] = placeOf(model, c);
-  return `Cell row ${row}, column ${column}`;
+function cellTitle(grid, c) {
+  const [row, column] = placeOf(grid, c);
+  return `${grid.cellPx > 1 ? "Cell" : "Pixel"} row ${row}, column ${column}`;
 }
 
-function cellFacts(model, c) {
-  const logOdds = logOddsAt(model, c);
+function factsIn(p, view, cell) {
+  if (view.kind === "difference") return differenceFacts(p, cell);
+  return cellFacts(p.columns[view.column], cell);
+}
+
+function cellFacts(column, c) {
+  const logOdds = logOddsAt(column, c);
+  const { truth, counts } = column.log;
   return [
-    ["class", model.isWall[c] ? "wall cell" : "space cell"],
-    ["truth", model.truth[c] ? "wall" : "free"],
-    ["prior p_free", model.pFreePrior[model.isWall[c]].toFixed(3)],
-    ["readings k", String(model.counts[c])],
+    ["class", column.isWall[c] ? "wall cell" : "space cell"],
+    ["truth", truth[c] ? "wall" : "free"],
+    ["prior p_free", column.pFreePrior[column.isWall[c]].toFixed(3)],
+    ["readings k", String(counts[c])],
     ["log-odds l", signed(logOdds, 3)],
-    ["declared", declaresWall(model, logOdds) ? "wall" : "no wall"],
+    ["declared", declaresWall(column, logOdds) ? "wall" : "no wall"],
     ["p_free", probability(pFreeOf(logOdds))],
     ["p_occupied", probability(pFreeOf(-logOdds))],
   ];
 }
 
-function cellWords(model, c) {
-  const facts = cellFacts(model, c).map((fact) => fact.join(" "));
-  return `${cellTitle(model, c)}: ${facts.join(", ")}`;
+function cellWords(column, c) {
+  const facts = cellFacts(column, c).map((fact) => fact.join(" "));
+  return `${cellTitle(column.log, c)}: ${facts.join(", ")}`;
 }
 
-function termCard({ model, pin }, { term, to }) {
-  if (!term)
-    return [
-      "Prior",
-      [
-        ["l_0", signed(to, 3)],
-        ["p_free", probability(pFreeOf(to))],
-      ],
-    ];
-  const facts = [
-    ["p_free(reading)", probability(pFreeOf(term.said))],
-    ["its log-odds", signed(term.said, 3)],
-    ["adds", signed(term.added, 3)],
-    ["then l", signed(term.total, 3)],
-  ];
-  if (!model.once) facts.splice(2, 0, ["less l_0", signed(-priorOf(model, pin), 3)]);
-  return [`Reading ${term.reading + 1}`, facts];
-}
+// ---- the panels below the stage --------------------------------------------------------
 
 function showTab(p) {
   const { root, pin, tab } = p;
@@ -150,14 +135,17 @@ function showTab(p) {
     panel.hidden = panel.dataset.panel !== tab;
   }
   root.dataset.pinned = pin === null ? "0" : "1";
-  if (tab === "scores") showScores(p);
-  else if (pin !== null) showPinned(p);
+  if (tab === "scores") showTables(p);
+  if (tab === "scores" || isSeveral(p)) showCurves(p);
+  if (tab === "cell" && pin !== null) showPinned(p);
 }
 
 function showPinned(p) {
-  partOf(p.root, "cell-name").textContent = cellTitle(p.model, p.pin);
-  partOf(p.root, "cell-facts").replaceChildren(...rows(cellFacts(p.model, p.pin)));
-  showTerms(p);
+  const [column] = p.columns;
+  const cell = cellHolding(column.log, ...p.pin);
+  setText(partOf(p.root, "cell-name"), cellTitle(column.log, cell));
+  partOf(p.root, "cell-facts").replaceChildren(...rows(cellFacts(column, cell)));
+  showLadders(p);
 }
 
 const rows = (facts) =>

@@ -1,8 +1,11 @@
-// Fusion and scores: numbers only, independent of the page.
+// Fusion: numbers only, independent of the page.
 //
 // The readings' log-odds do not depend on the prior, so a map at any step follows from
 // the prior's log-odds l_0 and, per cell, the number k and the sum S of its readings:
 // l = S + l_0 (prior once) or l = S + (1 - k) l_0 (subtract prior).
+//
+// A *log* holds the readings and their sums at a step; columns share it. A *column* is
+// one map: a log, the wall cells of its prior, the prior and the update rule.
 
 const LATTICE = 2 ** -36; // nats; that of occsim.logodds: sums and ties are exact
 
@@ -13,12 +16,15 @@ function pFreeOf(logOdds) {
   return (logOdds >= 0 ? 1 : small) / (1 + small);
 }
 
-function newModel(replay, { decisionEps, priorScale }) {
-  const sums = new Float64Array(replay.nCells);
-  const counts = new Int32Array(replay.nCells);
+function newLog(evidence) {
+  const sums = new Float64Array(evidence.nCells);
+  const counts = new Int32Array(evidence.nCells);
+  return { ...evidence, ...linkEntries(evidence), sums, counts, step: 0 };
+}
+
+function newColumn(log, isWall, { decisionEps, priorScale }) {
   const prior = { pFreePrior: [0.5, 0.5], logOddsPrior: [0, 0], once: true };
-  const links = linkEntries(replay);
-  return { ...replay, ...links, ...prior, sums, counts, step: 0, decisionEps, priorScale };
+  return { log, isWall, ...prior, decisionEps, priorScale };
 }
 
 // Per entry, the state of its cell before it: the sum, the number and the last entry.
@@ -41,17 +47,36 @@ function linkEntries({ cell, logOdds, nCells }) {
 }
 
 // By class: the value of space cells, then that of wall cells.
-function setPrior(model, { p_wall, p_space, uninformative, rule }) {
-  const scaled = [model.priorScale * p_space, model.priorScale * p_wall];
-  model.pFreePrior = uninformative ? [0.5, 0.5] : scaled;
-  model.logOddsPrior = model.pFreePrior.map(logit);
-  model.once = rule === "prior_once";
+function setPrior(column, setting) {
+  column.pFreePrior = pairOf(column, setting);
+  column.logOddsPrior = column.pFreePrior.map(logit);
+  column.once = setting.rule === "prior_once";
+}
+
+function pairOf(column, { p_wall, p_space, uninformative, calibrated }) {
+  if (uninformative) return [0.5, 0.5];
+  if (calibrated) return calibratedPair(column);
+  return [column.priorScale * p_space, column.priorScale * p_wall];
+}
+
+// As occsim.calibrated_prior: the share of each class that is free in truth, smoothed by
+// Laplace's rule so that neither 0 nor 1 occurs.
+function calibratedPair({ isWall, log: { truth, nCells } }) {
+  const [free, all] = [
+    [1, 1],
+    [2, 2],
+  ];
+  for (let c = 0; c < nCells; c++) {
+    all[isWall[c]]++;
+    if (!truth[c]) free[isWall[c]]++;
+  }
+  return free.map((n, i) => n / all[i]);
 }
 
 // Moves to the map after so many readings; returns the entries that changed.
-function seek(model, step) {
-  const { indptr, cell, before, logOdds, sums, counts } = model;
-  const from = indptr[model.step];
+function seek(log, step) {
+  const { indptr, cell, before, logOdds, sums, counts } = log;
+  const from = indptr[log.step];
   const to = indptr[step];
   for (let e = from; e < to; e++) {
     sums[cell[e]] = before[e] + logOdds[e];
@@ -61,64 +86,26 @@ function seek(model, step) {
     sums[cell[e]] = before[e];
     counts[cell[e]]--;
   }
-  model.step = step;
+  log.step = step;
   return [Math.min(from, to), Math.max(from, to)];
 }
 
-const priorOf = (model, c) => model.logOddsPrior[model.isWall[c]];
+const priorOf = (column, c) => column.logOddsPrior[column.isWall[c]];
 
 // A cell's log-odds from the sum and the number of its readings.
-function fused(model, c, sum, k) {
-  return sum + (model.once ? 1 : 1 - k) * priorOf(model, c);
+function fused(column, c, sum, k) {
+  return sum + (column.once ? 1 : 1 - k) * priorOf(column, c);
 }
 
-const logOddsAt = (model, c) => fused(model, c, model.sums[c], model.counts[c]);
+const logOddsAt = (column, c) => fused(column, c, column.log.sums[c], column.log.counts[c]);
 
-const declaresWall = (model, logOdds) => logOdds < -model.decisionEps;
+const declaresWall = (column, logOdds) => logOdds < -column.decisionEps;
 
 // Which of the four counts a cell falls in: 0 TP, 1 FP, 2 FN, 3 TN.
-function outcomeAt(model, c, logOdds) {
-  const isTrue = model.truth[c];
-  if (declaresWall(model, logOdds)) return isTrue ? 0 : 1;
+function outcomeAt(column, c, logOdds) {
+  const isTrue = column.log.truth[c];
+  if (declaresWall(column, logOdds)) return isTrue ? 0 : 1;
   return isTrue ? 2 : 3;
-}
-
-// The four counts and the number of explored cells after 0, 1, ..., S readings, in one
-// pass over the entries.
-function scoreCurves(model, region) {
-  const curve = () => new Uint32Array(model.nReadings + 1);
-  const curves = { counts: [curve(), curve(), curve(), curve()], explored: curve() };
-  const now = region === "explored" ? [0, 0, 0, 0] : priorCounts(model);
-  let explored = 0;
-  for (let s = 0; s <= model.nReadings; s++) {
-    for (let i = 0; i < 4; i++) curves.counts[i][s] = now[i];
-    curves.explored[s] = explored;
-    if (s < model.nReadings) explored += scoreReading(model, s, region, now);
-  }
-  return curves;
-}
-
-function priorCounts(model) {
-  const counts = [0, 0, 0, 0];
-  for (let c = 0; c < model.nCells; c++) counts[outcomeAt(model, c, priorOf(model, c))]++;
-  return counts;
-}
-
-// Moves each cell that a reading updated from its old count to its new one; returns how
-// many cells it saw for the first time.
-function scoreReading(model, s, region, counts) {
-  const { indptr, cell, before, rank, logOdds } = model;
-  let firstSeen = 0;
-  for (let e = indptr[s]; e < indptr[s + 1]; e++) {
-    const c = cell[e];
-    const k = rank[e];
-    const was = outcomeAt(model, c, fused(model, c, before[e], k));
-    const is = outcomeAt(model, c, fused(model, c, before[e] + logOdds[e], k + 1));
-    if (region !== (k > 0 ? "unexplored" : "explored")) counts[was]--;
-    if (region !== "unexplored") counts[is]++;
-    if (k === 0) firstSeen++;
-  }
-  return firstSeen;
 }
 
 function readingOf({ indptr, nReadings }, entry) {
@@ -132,31 +119,17 @@ function readingOf({ indptr, nReadings }, entry) {
   return low;
 }
 
-// Every reading of one cell, in order: its value, the term added, and the total.
-function historyOf(model, c) {
-  const prior = priorOf(model, c);
+// Every reading of one cell, in order: its value, the prior subtracted with it, the term
+// that both add, and the total.
+function historyOf(column, c) {
+  const { log } = column;
+  const prior = priorOf(column, c);
+  const off = column.once ? 0 : -prior;
   const terms = [];
-  for (let e = model.last[c]; e >= 0; e = model.previous[e]) {
-    const said = model.logOdds[e];
-    const total = fused(model, c, model.before[e] + said, model.rank[e] + 1);
-    const added = model.once ? said : said - prior;
-    terms.push({ reading: readingOf(model, e), said, added, total });
+  for (let e = log.last[c]; e >= 0; e = log.previous[e]) {
+    const said = log.logOdds[e];
+    const total = fused(column, c, log.before[e] + said, log.rank[e] + 1);
+    terms.push({ reading: readingOf(log, e), said, off, added: said + off, total });
   }
   return { prior, terms: terms.reverse() };
-}
-
-// Scores from the counts, as in occsim.metrics; 0 / 0 is NaN: undefined.
-const SCORES = {
-  precision: ([tp, fp]) => tp / (tp + fp),
-  recall: ([tp, , fn]) => tp / (tp + fn),
-  f2: ([tp, fp, fn]) => (5 * tp) / (5 * tp + 4 * fn + fp),
-};
-
-function scoreSeries(curves, nCells) {
-  const series = { coverage: Float64Array.from(curves.explored, (n) => n / nCells) };
-  for (const [name, formula] of Object.entries(SCORES)) {
-    const at = (_, s) => formula(curves.counts.map((curve) => curve[s]));
-    series[name] = Float64Array.from(curves.explored, at);
-  }
-  return series;
 }

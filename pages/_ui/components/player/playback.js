@@ -3,6 +3,7 @@
 const LOOP_PAUSE = 1.6; // s at the end of a compact replay
 const FRAME_MAX = 0.1; // s; limits the jump after a page was in the background
 const REPLAY_SECONDS = 10; // duration of a replay unless a speed was chosen
+const WHOLE = "whole"; // the choice of that duration
 
 function listenToTransport(p) {
   const scrub = partOf(p.root, "scrub");
@@ -12,25 +13,25 @@ function listenToTransport(p) {
   });
   scrub.addEventListener("change", () => commit(p, COMMIT_DELAY));
   partOf(p.root, "speed").addEventListener("change", (event) => {
-    p.state.speed = Number(event.target.value);
+    const { value } = event.target;
+    p.state.speed = value === WHOLE ? null : Number(value);
     commit(p);
   });
 }
 
 function buildSpeeds(p, speeds) {
-  const option = (value) => element("option", { value }, `${value} readings/s`);
-  partOf(p.root, "speed").replaceChildren(...speeds.map(option));
+  const option = (value, label) => element("option", { value }, label);
+  const whole = option(WHOLE, `all in ${REPLAY_SECONDS} s`);
+  const given = speeds.map((value) => option(value, `${value} readings/s`));
+  partOf(p.root, "speed").replaceChildren(whole, ...given);
 }
 
-// The speed that makes a replay last closest to REPLAY_SECONDS.
-function usualSpeed(speeds, nReadings) {
-  const away = (speed) => Math.abs(speed - nReadings / REPLAY_SECONDS);
-  return speeds.reduce((best, speed) => (away(speed) < away(best) ? speed : best));
-}
+// Readings per second.
+const speedOf = ({ state, scene }) => state.speed ?? scene.nReadings / REPLAY_SECONDS;
 
 function play(p) {
-  if (p.playing || !p.model) return;
-  if (p.state.step >= p.model.nReadings) goTo(p, 0);
+  if (p.playing || !p.columns) return;
+  if (p.state.step >= p.scene.nReadings) goTo(p, 0);
   p.position = p.state.step;
   p.playing = true;
   showPlaying(p);
@@ -46,12 +47,12 @@ function play(p) {
 
 // The position counts readings, with a fraction; past the end it counts the pause.
 function advance(p, seconds) {
-  const { speed, compact } = p.state;
-  const last = p.model.nReadings;
+  const speed = speedOf(p);
+  const last = p.scene.nReadings;
   p.position += seconds * speed;
   goTo(p, Math.floor(p.position), p.position);
   if (p.position < last) return;
-  if (compact) {
+  if (p.state.compact) {
     if (p.position > last + LOOP_PAUSE * speed) goTo(p, 0);
   } else {
     pause(p);
@@ -81,11 +82,13 @@ function walkTo(p, step) {
 }
 
 function goTo(p, step, position = step) {
-  const target = clamp(step, 0, p.model.nReadings);
+  const target = clamp(step, 0, p.scene.nReadings);
   p.position = position;
-  if (target === p.model.step) return;
+  if (target === p.state.step) return;
   p.state.step = target;
-  paintEntries(p.picture, p.model, seek(p.model, target));
+  const changed = new Map([...p.logs.values()].map((log) => [log, seek(log, target)]));
+  for (const column of p.columns) paintEntries(column.picture, column, changed.get(column.log));
+  if (p.comparison) rejudge(p.comparison, changed);
   refresh(p);
 }
 
@@ -95,13 +98,13 @@ function showPlaying({ root, playing }) {
   root.dataset.playing = playing ? "1" : "0";
 }
 
-const stepWords = ({ state, model }) => `reading ${state.step} of ${model.nReadings}`;
+const stepWords = ({ state, scene }) => `reading ${state.step} of ${scene.nReadings}`;
 
 function showStep(p) {
   const { step } = p.state;
   const scrub = partOf(p.root, "scrub");
   scrub.value = step;
-  scrub.style.setProperty("--done", `${(100 * step) / p.model.nReadings}%`);
+  scrub.style.setProperty("--done", `${(100 * step) / p.scene.nReadings}%`);
   scrub.setAttribute("aria-valuetext", stepWords(p));
-  partOf(p.root, "counter").textContent = stepWords(p);
+  setText(partOf(p.root, "counter"), stepWords(p));
 }

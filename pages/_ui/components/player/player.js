@@ -1,7 +1,7 @@
 // The map player: handles input, redraws, and commits to Python.
 //
-// Python owns a document {rev, ...}. The player takes it over when it starts or when rev
-// changes; from then on the student's choices apply, and every commit echoes rev.
+// Python owns a document {rev, columns, ...}. The player takes it over when it starts or
+// when rev changes; from then on the student's choices apply, and every commit echoes rev.
 
 const COMMIT_DELAY = 350; // ms; keys held down are one commit
 
@@ -17,24 +17,22 @@ export default function ({ data, parentElement, setStateValue }) {
 }
 
 function opened(root) {
-  const canvas = (name) => root.querySelector(`[data-pane=${name}] canvas`);
   const p = {
     root,
-    canvases: { drawing: canvas("drawing"), map: canvas("map") },
     card: root.querySelector(".card"),
-    header: null,
-    model: null,
-    state: null,
+    legend: element("span", { class: "legend" }),
+    differenceKeys: element("span", { class: "legend" }),
     loading: 0,
     playing: false,
     position: 0,
     hover: null,
     pin: null,
     tab: "scores",
+    byHand: [],
   };
   root.inspect = () => inspection(p);
   listenToTransport(p);
-  listenToCells(p);
+  listenToTabs(p);
   listenToButtons(p);
   root.addEventListener("keydown", (event) => keyDown(p, event));
   p.observer = new ResizeObserver(() => resize(p));
@@ -47,8 +45,7 @@ function close(p) {
   clearTimeout(p.commitTimer);
   p.loading++;
   p.observer.disconnect();
-  p.preview?.close();
-  p.model = null;
+  p.columns = null;
 }
 
 function listenToButtons(p) {
@@ -60,21 +57,21 @@ function listenToButtons(p) {
     unpin: () => unpin(p),
   };
   for (const button of p.root.querySelectorAll("[data-do]")) {
-    button.addEventListener("click", () => p.model && actions[button.dataset.do]());
+    button.addEventListener("click", () => p.columns && actions[button.dataset.do]());
   }
 }
 
 function keyDown(p, event) {
-  if (!p.model || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (!p.columns || event.ctrlKey || event.metaKey || event.altKey) return;
   const { target, key } = event;
-  const onMap = target === p.canvases.map && !isInert(p);
-  if (!(onMap && cellKey(p, event))) {
+  const view = isInert(p) ? null : p.views.find(({ kind, canvas }) => kind === "map" && canvas === target);
+  if (!(view && cellKey(p, view, event))) {
     const reach = event.shiftKey ? 10 : 1;
     const moves = {
       ArrowLeft: () => walkTo(p, p.state.step - reach),
       ArrowRight: () => walkTo(p, p.state.step + reach),
       Home: () => walkTo(p, 0),
-      End: () => walkTo(p, p.model.nReadings),
+      End: () => walkTo(p, p.scene.nReadings),
       Escape: () => unpin(p),
       " ": () => togglePlay(p),
     };
@@ -91,45 +88,50 @@ function keyDown(p, event) {
 
 // ---- from Python -----------------------------------------------------------------------
 
-// Until a new replay is decoded the old one stays, with its document and its choices.
+// Until new parts are decoded the old ones stay, with their document and its choices.
 async function receive(p, data) {
   const turn = ++p.loading;
-  const [header, replay] = readPacked(data);
+  const [header, ...payloads] = readPacked(data);
   if (!p.header) build(p, header);
-  if (p.model && p.header.digest === header.digest) {
-    if (p.header.document.rev === header.document.rev) retheme(p);
-    else take(p, header, p.model, p.preview);
-    return;
-  }
-  const decoded = decodeReplay((await inflated(replay)).buffer);
-  const preview = await pictureOf(decoded.preview).catch(() => null);
+  await holdParts(header.parts, payloads);
   if (turn !== p.loading) return; // newer data is being decoded
-  p.preview?.close();
-  take(p, header, newModel(decoded, header.constants), preview);
+  const isSame = p.columns && p.header.digest === header.digest;
+  if (isSame && p.header.document.rev === header.document.rev) retheme(p);
+  else take(p, header);
 }
 
 function build(p, header) {
   p.root.classList.toggle("compact", header.document.compact);
+  p.referee = newReferee(p);
   buildControls(p, header);
   buildSpeeds(p, header.speeds);
-  buildTiles(p, header.texts.scores);
-  for (const [name, value] of Object.entries(header.colours)) {
+  buildBar(p, header);
+  buildQuestion(p, header.texts.answers);
+  const { columns, ...colours } = header.colours;
+  columns.forEach((value, i) => p.root.style.setProperty(`--colour-column${i}`, value));
+  for (const [name, value] of Object.entries(colours)) {
     p.root.style.setProperty(`--colour-${name}`, value);
   }
 }
 
 // Shows a replay under a document. One that was playing stops where it is.
-function take(p, header, model, preview) {
+function take(p, header) {
   const wasPlaying = pause(p);
   p.state = adopted(header, p.state);
-  Object.assign(p, { header, model, preview, hover: null });
+  for (const setting of p.state.columns) Object.assign(setting, header.fixed);
+  for (const column of p.columns ?? []) column.key = null; // the step may be another
+  Object.assign(p, { header, hover: null });
+  learnParts(p, header);
+  p.scene = partNamed(p, "scene ") ?? p.scene;
   p.theme = themeOf(p.root);
-  p.picture = newPicture(model, header.colours);
-  fitState(p);
   hideCard(p);
-  layOut(p);
+  p.shown = null;
+  if (!p.scene) {
+    request(p);
+    return;
+  }
+  fitState(p);
   recolour(p);
-  p.root.dataset.ready = "1";
   if (wasPlaying) commit(p);
   const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
   if (p.state.compact && !isStill) play(p);
@@ -144,7 +146,7 @@ function adopted({ key, digest, document }, current) {
     known.digest = digest;
     return known.state;
   }
-  const state = { ...document };
+  const state = { ...document, columns: document.columns.map((column) => ({ ...column })) };
   const isLate = !current && known?.digest === digest && known.toldStep === document.step;
   if (isLate) state.step = known.state.step;
   remembered.set(key, { state, digest, toldStep: document.step });
@@ -153,96 +155,84 @@ function adopted({ key, digest, document }, current) {
 
 // Makes the choices fit the replay: they may have been made on another one.
 function fitState(p) {
-  const { state, model, header } = p;
-  state.step = clamp(state.step, 0, model.nReadings);
-  state.speed ??= usualSpeed(header.speeds, model.nReadings);
-  p.pin = state.pin_px && cellHolding(model, ...state.pin_px);
-  if (p.pin === null) state.pin_px = null;
+  const { state, scene } = p;
+  state.step = clamp(state.step, 0, scene.nReadings);
+  p.pin = state.pin_px && cellHolding(scene.pixels, ...state.pin_px) !== null ? state.pin_px : null;
+  state.pin_px = p.pin;
   if (p.pin !== null) p.tab = "cell";
   p.position = state.step;
-  seek(model, state.step);
-  partOf(p.root, "scrub").max = model.nReadings;
-  partOf(p.root, "speed").value = state.speed;
+  partOf(p.root, "scrub").max = scene.nReadings;
+  partOf(p.root, "speed").value = state.speed ?? WHOLE;
 }
 
 function retheme(p) {
   p.theme = themeOf(p.root);
+  forgetCurves(p);
   refresh(p);
-}
-
-// ---- to Python and to screen readers
-// -----------------------------------------------------
-
-function commit(p, delay = 0) {
-  if (p.state.compact) return;
-  clearTimeout(p.commitTimer);
-  p.commitTimer = setTimeout(() => {
-    remembered.get(p.header.key).toldStep = p.state.step;
-    p.send("committed", { ...p.state });
-    say(p, stateWords(p));
-  }, delay);
-}
-
-// A screen reader is told the state at a stop, not each frame.
-function say({ root }, words) {
-  partOf(root, "said").textContent = words;
-}
-
-function stateWords(p) {
-  const { step } = p.state;
-  const scores = p.tiles.map(({ name, label }) => `${label} ${percent(p.series[name][step])}`);
-  const pinned = p.pin === null ? [] : [cellWords(p.model, p.pin)];
-  return [`${stepWords(p)}: ${scores.join(", ")}`, ...pinned].join(". ");
 }
 
 // ---- what is drawn again -----------------------------------------------------------------
 
-// After a change of prior, rule, overlay or region: redraws all cells and curves.
+// After a change of a setting or of what is shown: redraws the maps that it changes.
+// Where a part is missing, what is shown stays until it comes.
 function recolour(p) {
-  const { state, model } = p;
-  if (!model) return;
+  const { state } = p;
+  if (!state.columns.every((setting) => isHeld(p, setting))) {
+    request(p);
+    return;
+  }
   const began = performance.now();
-  setPrior(model, state);
-  p.curves = scoreCurves(model, state.region);
-  p.series = scoreSeries(p.curves, model.nCells);
-  paintAll(p.picture, model, state);
+  assembleColumns(p);
+  const changed = p.columns.filter((column, i) => renewColumn(p, column, state.columns[i]));
+  buildStage(p);
+  const isAnother = p.columns.length !== p.shown;
+  if (isAnother) {
+    p.shown = p.columns.length;
+    buildTiles(p);
+    layOut(p);
+  }
+  if (changed.length || isAnother) recompare(p);
+  forgetCurves(p);
   showControls(p);
+  showBar(p);
   refresh(p);
+  p.root.dataset.ready = "1";
   p.root.dataset.recolourMs = (performance.now() - began).toFixed(2);
 }
 
+// Scores and paints a map under its setting; returns whether either had changed.
+function renewColumn(p, column, setting) {
+  const key = JSON.stringify([setting, p.state.overlay]);
+  if (column.key === key) return false;
+  column.key = key;
+  setPrior(column, setting);
+  column.curves = scoreCurves(column);
+  column.series = scoreSeries(column.curves, column.log.nCells);
+  column.blank = blankSeries(column.log, p.header.constants);
+  column.picture ??= newPicture(column.log, p.header.colours);
+  paintAll(column.picture, column, p.state.overlay);
+  return true;
+}
+
 function refresh(p) {
-  if (!p.model) return;
+  if (!p.columns) return;
   const began = performance.now();
   drawStage(p);
   showStep(p);
   if (!p.state.compact) {
     showTab(p);
+    if (isSeveral(p)) {
+      showReferee(p);
+      showQuestion(p);
+    }
     report(p);
   }
   p.root.dataset.drawMs = (performance.now() - began).toFixed(2);
 }
 
-// For tests: the state of the player, and the numbers behind it.
-function report({ root, header, state, model, curves }) {
-  const { step } = state;
-  const [tp, fp, fn, tn] = curves.counts.map((curve) => curve[step]);
-  Object.assign(root.dataset, { tp, fp, fn, tn, step, explored: curves.explored[step] });
-  const { nReadings, cellPx } = model;
-  Object.assign(root.dataset, { rev: header.document.rev, nReadings, cellPx });
-  Object.assign(root.dataset, { pWall: state.p_wall, pSpace: state.p_space });
-}
-
-function inspection(p) {
-  const { model, hover, pin, scale } = p;
-  const logOdds = Array.from(model.counts, (_, c) => logOddsAt(model, c));
-  const history = pin === null ? null : historyOf(model, pin);
-  const bars = p.terms?.bars.map((_, i) => barX(p.terms.slot, i));
-  return { hover, pin, scale, logOdds, history, bars };
-}
-
 function resize(p) {
-  if (!p.model) return;
+  if (!p.columns) return;
   layOut(p);
+  forgetCurves(p);
   refresh(p);
 }

@@ -1,32 +1,49 @@
-// A replay's bytes, inflated; occsim/io/replay.py describes the layout.
+// A replay's parts, inflated; occsim/io/replay.py describes their layout.
 
-const HEADER_BYTES = 64;
-
-function decodeReplay(buffer) {
-  const word = new Uint32Array(buffer, 0, 12);
-  const [, heightPx, widthPx, cellPx, nReadings, nEntries, nRuns, nValues] = word;
-  const [indexBytes, previewBytes] = word.subarray(8);
-  const [rangePx, fovRad] = new Float64Array(buffer, 48, 2);
-  const nRows = Math.ceil(heightPx / cellPx);
-  const nCols = Math.ceil(widthPx / cellPx);
-  const nCells = nRows * nCols;
-  const IndexArray = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array }[indexBytes];
-  let at = HEADER_BYTES;
+// Takes arrays from a buffer, one after the other.
+function readerOf(buffer, at) {
   const take = (Type, count) => {
     const part = new Type(buffer, at, count);
     at += part.byteLength;
     return part;
   };
-  const takeFlags = () => unpackBits(take(Uint8Array, Math.ceil(nCells / 8)), nCells);
-  const values = take(Float64Array, nValues);
+  const takeFlags = (count) => unpackBits(take(Uint8Array, Math.ceil(count / 8)), count);
+  return { take, takeFlags };
+}
+
+function gridOf(heightPx, widthPx, cellPx) {
+  const nRows = Math.ceil(heightPx / cellPx);
+  const nCols = Math.ceil(widthPx / cellPx);
+  return { heightPx, widthPx, cellPx, nRows, nCols, nCells: nRows * nCols };
+}
+
+// The world's pixels are a grid of cells of 1 px, so that cells and pixels are read alike.
+function decodeScene(buffer) {
+  const [, heightPx, widthPx, nReadings, previewBytes] = new Uint32Array(buffer, 0, 5);
+  const [rangePx, fovRad] = new Float64Array(buffer, 24, 2);
+  const { take, takeFlags } = readerOf(buffer, 40);
   const poses = take(Float32Array, 3 * nReadings);
+  const pixels = { ...gridOf(heightPx, widthPx, 1), truth: takeFlags(heightPx * widthPx) };
+  const preview = take(Uint8Array, previewBytes);
+  return { heightPx, widthPx, nReadings, rangePx, fovRad, poses, pixels, preview };
+}
+
+function decodeLog(buffer) {
+  const word = new Uint32Array(buffer, 0, 10);
+  const [nReadings, nEntries, nRuns, nValues, indexBytes] = word.subarray(4);
+  const grid = gridOf(word[1], word[2], word[3]);
+  const IndexArray = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array }[indexBytes];
+  const { take, takeFlags } = readerOf(buffer, 40);
+  const values = take(Float64Array, nValues);
   const runs = [nReadings, nRuns, nRuns].map((count) => take(Uint32Array, count));
   const logOdds = Float64Array.from(take(IndexArray, nEntries), (i) => values[i]);
-  const [isWall, truth] = [takeFlags(), takeFlags()];
-  const preview = take(Uint8Array, previewBytes);
-  const size = { heightPx, widthPx, cellPx, nRows, nCols, nCells, nReadings };
-  const entries = { ...expandRuns(...runs, nEntries), logOdds };
-  return { ...size, ...entries, rangePx, fovRad, isWall, truth, poses, preview };
+  const truth = takeFlags(grid.nCells);
+  return { ...grid, nReadings, ...expandRuns(...runs, nEntries), logOdds, truth };
+}
+
+function decodeWalls(buffer) {
+  const [, nRows, nCols] = new Uint32Array(buffer, 0, 3);
+  return readerOf(buffer, 12).takeFlags(nRows * nCols);
 }
 
 // The cells of each reading: entries indptr[s] to indptr[s + 1] are those of reading s.

@@ -13,9 +13,16 @@ const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits)
 // A score; a dash if undefined.
 const percent = (value) => (Number.isNaN(value) ? DASH : `${(100 * value).toFixed(1)} %`);
 
+const inBits = (value) => (Number.isNaN(value) ? DASH : value.toFixed(3));
+
 // Three decimals; more where the value would otherwise be rounded to 0 or 1.
 function probability(p) {
   const edge = Math.min(p, 1 - p);
   if (edge >= 0.0005 || edge === 0) return p.toFixed(3);
   return p.toFixed(Math.min(15, 1 - Math.floor(Math.log10(edge))));
+}
+
+// Replaces a text only where it changed: the page lays itself out anew after it.
+function setText(node, text) {
+  if (node.textContent !== text) node.textContent = text;
 }

@@ -1,0 +1,34 @@
+// What the player tells Python, and a screen reader.
+
+function commit(p, delay = 0) {
+  if (p.state.compact) return;
+  clearTimeout(p.commitTimer);
+  p.commitTimer = setTimeout(() => {
+    remembered.get(p.header.key).toldStep = p.state.step;
+    p.send("committed", { ...p.state, held: heldParts() });
+    if (p.columns) say(p, stateWords(p));
+  }, delay);
+}
+
+// Asks for the parts that a chosen map needs and the browser has not.
+function request(p) {
+  clearTimeout(p.commitTimer);
+  p.send("committed", { ...p.state, held: heldParts() });
+}
+
+// A screen reader is told the state at a stop, not each frame.
+function say({ root }, words) {
+  setText(partOf(root, "said"), words);
+}
+
+function stateWords(p) {
+  const { step } = p.state;
+  const maps = p.columns.map(({ series }, i) => {
+    const scores = p.header.texts.scores.map(
+      ({ name, label, unit }) => `${label} ${UNITS[unit].text(series.looked[name][step])}`,
+    );
+    return `${isSeveral(p) ? `map ${LETTERS[i]}, ` : ""}looked at: ${scores.join(", ")}`;
+  });
+  const pinned = p.pin === null ? [] : p.columns.map((c) => cellWords(c, cellHolding(c.log, ...p.pin)));
+  return [`${stepWords(p)}: ${maps.join("; ")}`, ...pinned].join(". ");
+}

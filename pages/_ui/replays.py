@@ -1,0 +1,79 @@
+"""What the map player needs, packed and shared by all sessions."""
+
+from collections.abc import Mapping, Sequence
+
+from occsim import MapSettings, Sensor
+from occsim.building import Building
+from occsim.io.replay import pack_log, pack_scene, pack_walls
+from pages._ui import compute
+from pages._ui.columns import FLAWS, Column
+from pages._ui.components.player import Part, Replay
+from pages._ui.settings import Settings
+from pages._ui.shared import shared
+
+
+def replay(building: Building, settings: Settings) -> Replay:
+    """What the player needs for the map of some settings."""
+    drawn = {settings.column: compute.prior_key(building, settings)}
+    return _replay(building, settings, drawn)
+
+
+def replay_of(
+    building: Building, settings: Settings, columns: Sequence[Column]
+) -> Replay:
+    """What the player needs for several maps of one building."""
+    drawn = {
+        one: compute.fitting(building, one.prior_drawing, FLAWS[one.flaw])
+        for one in columns
+    }
+    return _replay(building, settings, drawn)
+
+
+def _replay(
+    building: Building, settings: Settings, drawn: Mapping[Column, compute.PriorKey]
+) -> Replay:
+    parts = [Part("scene", "", _scene(building.digest, settings.sensor, building))]
+    for one, key in drawn.items():
+        mapping = settings.mapping_of(one)
+        behind, drawing = one.behind_hit.value, one.prior_drawing.value
+        log = _log(building.digest, mapping, building)
+        walls = _walls(building.digest, key, mapping, building)
+        parts += [
+            Part("log", f"{behind} {one.cell_px}", log),
+            Part("walls", f"{drawing} {one.flaw.value} {one.cell_px}", walls),
+        ]
+    # All that the names of the parts do not say.
+    rest = building.digest, settings.mapping_of(Column())
+    drawings = tuple(compute.prior_drawings(building))
+    return Replay(repr(rest), tuple(dict.fromkeys(parts)), drawings)
+
+
+@shared()
+def _scene(digest: str, sensor: Sensor, _building: Building) -> bytes:
+    with compute.core():
+        return pack_scene(
+            _building.world,
+            trajectory=_building.trajectory,
+            sensor=sensor,
+            drawing=_building.drawing,
+        )
+
+
+@shared("Simulating the readings")
+def _log(digest: str, settings: MapSettings, _building: Building) -> bytes:
+    run = compute.mapped(_building, settings)
+    with compute.core():
+        return pack_log(
+            run.evidence, truth=run.truth_cells, trajectory=run.building.trajectory
+        )
+
+
+@shared()
+def _walls(
+    digest: str, drawn: compute.PriorKey, settings: MapSettings, _building: Building
+) -> bytes:
+    run = compute.mapped(_building, settings).with_prior_mask(
+        compute.drawn_mask(_building, drawn)
+    )
+    with compute.core():
+        return pack_walls(run.wall_cells)
