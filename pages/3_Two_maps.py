@@ -66,6 +66,7 @@ with shell.page("pages/3_Two_maps.py") as lesson:
     uploads.pose_notice()
     key = state.TWO_MAPS_KEY
     state.take_from_player(key)
+    state.fit_columns()
     replay = _replay()
     map_player(
         replay,

@@ -88,6 +88,15 @@ def test_a_choice_in_a_header_is_kept_in_the_settings_and_in_the_link():
     assert app.session_state["settings"].p_wall == Settings().p_wall
 
 
+def test_a_drawing_that_does_not_fit_another_building_becomes_its_own():
+    app = opened(TWO_MAPS, columns="--dd")
+    assert played(app).columns[1].prior_drawing is PriorDrawing.D
+    select = next(one for one in app.selectbox if one.label == "Drawing")
+    select.set_value("a").run()
+    assert played(app).columns == (Column(), Column())
+    assert app.session_state["settings"].columns == (Column(), Column())
+
+
 def test_reset_brings_back_the_opening():
     app = opened(TWO_MAPS)
     commit(app, columns=columns_json(Column(), Column(cell_px=5)), step=33)
