@@ -33,8 +33,9 @@ with shell.page("app.py"):
         map_player(replays.replay(sample, settings), HOME_REPLAY, key="home_player")
         st.caption(
             f"The robot maps “{sample.title}”. White is free, black is occupied. "
-            "Cells that it has not seen yet show the drawing: light grey for space, "
-            "dark grey for walls. Poses are known exactly, the sensor has no noise, "
+            "Cells that it has not seen yet are hatched and show the drawing: light "
+            "grey for space, dark grey for walls. Poses are known exactly, the sensor "
+            "has no noise, "
             "and the world is flat."
         )
     st.caption(words.SOURCE)

@@ -124,11 +124,11 @@ def test_the_opening_of_two_maps_needs_no_link_and_a_change_a_short_one():
     """Only what departs from a default map is said: here B's rule and cell size."""
     first, second = Settings().columns
     changed = with_changes(Settings(), {"columns": (first, replace(second, cell_px=1))})
-    assert encode(changed) == {"columns": "~~rsubtract_prior~z1"}
+    assert encode(changed) == {"columns": "--rsubtract_prior-z1"}
 
 
 @pytest.mark.parametrize(
-    "text", ["", "~~~~~~", "w0.3", "~~x1", "~~w7", "~~rnever", "~~z0.5", "~~c2"]
+    "text", ["", "------", "w0.3", "--x1", "--w7", "--rnever", "--z0.5", "--c2"]
 )
 def test_a_link_with_wrong_columns_opens_with_the_default_ones(text):
     assert decode({"columns": text}) == (Settings(), ["columns"])

@@ -67,7 +67,7 @@ _LETTERS = dict(
 
 def columns_text(columns: tuple[Column, ...]) -> str:
     """Return columns as short text for a link: what departs from a default column."""
-    return "~~".join("~".join(_departures(column)) for column in columns)
+    return "--".join("-".join(_departures(column)) for column in columns)
 
 
 def _departures(column: Column) -> list[str]:
@@ -97,8 +97,8 @@ def columns_given(text: str) -> list[dict[str, str]]:
         Where a letter stands for no field, or there are too few or too many columns.
     """
     given = [
-        {_field_of(part[0]): part[1:] for part in column.split("~") if part}
-        for column in text.split("~~")
+        {_field_of(part[0]): part[1:] for part in column.split("-") if part}
+        for column in text.split("--")
     ]
     if not MIN_COLUMNS <= len(given) <= MAX_COLUMNS:
         raise ValueError(

@@ -42,6 +42,12 @@ LESSONS = (
         "starts from the architect's drawing.",
     ),
     Lesson(
+        "pages/3_Two_maps.py",
+        "Two maps, one clock",
+        "The same readings, two or three maps: click a word of a header to change the "
+        "drawing, the prior or the rule of one of them.",
+    ),
+    Lesson(
         "pages/2_Your_building.py",
         "Your building",
         "Upload a drawing: detect its walls, correct them by hand, set the ground "

@@ -23,6 +23,18 @@ FRAMES_JS = """root => new Promise(done => {
     root.querySelector('[data-do=play]').click();
     requestAnimationFrame(count);
 })"""
+HEADER_JS = """(root, [word, value]) => new Promise(done => {
+    const start = performance.now();
+    const list = root.querySelector(`[data-header="1"] [data-word=${word}]`);
+    list.value = value;
+    list.dispatchEvent(new Event('change'));
+    const wait = () => {
+        const { columns, state } = root.player;
+        const key = JSON.stringify([state.columns[1], state.overlay]);
+        columns[1].key === key ? done(performance.now() - start) : setTimeout(wait, 2);
+    };
+    wait();
+})"""
 
 
 def rows() -> Iterator[Row]:
@@ -42,6 +54,9 @@ def rows() -> Iterator[Row]:
                 400,
             )
             yield from _player_rows(page)
+            page.goto(f"{url}/Two_maps?columns=--rsubtract_prior--u1")
+            page.wait_for_selector(PLAYER)
+            yield from _three_maps_rows(page)
 
 
 def _opening_row(ms: float, blank_ms: float) -> Row:
@@ -94,5 +109,27 @@ def _player_rows(page: Page) -> Iterator[Row]:
         scrub.append(float(player.evaluate("root => root.dataset.drawMs")))
     yield timed_row("prior moved in the player, script time", median(recolour), 30)
     yield timed_row("scrubbed in the player, script time", median(scrub), 30)
-    frames = player.evaluate(FRAMES_JS)
-    yield Row("replay", f"{frames:.0f} frames/s", "60 frames/s", "", frames > 58)
+    yield _frames_row("replay", page)
+
+
+def _frames_row(name: str, page: Page) -> Row:
+    frames = page.locator(PLAYER).evaluate(FRAMES_JS)
+    return Row(name, f"{frames:.0f} frames/s", "60 frames/s", "", frames > 58)
+
+
+def _three_maps_rows(page: Page) -> Iterator[Row]:
+    yield _frames_row("three maps on one clock", page)
+    page.locator("[data-header='1'] .more").click()
+    known = [
+        _header_ms(page, "rule", ("prior_once", "subtract_prior")[i % 2])
+        for i in range(8)
+    ]
+    yield timed_row("a map's rule changed in its header", median(known), 300)
+    drawings = ("mirrored", "d", "e", "empty")
+    new = [_header_ms(page, "drawing", drawing) for drawing in drawings]
+    yield timed_row("a map's drawing changed, its walls sent", median(new), 300)
+
+
+def _header_ms(page: Page, word: str, value: str) -> float:
+    """Time from a choice in the second map's header until that map is redrawn."""
+    return page.locator(PLAYER).evaluate(HEADER_JS, [word, value])

@@ -9,7 +9,7 @@ import streamlit as st
 from occsim import load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
-from pages._ui.choices import SECTIONS
+from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
 from pages._ui.state.replay import (
     NEW_PLAYED,
@@ -203,6 +203,19 @@ def building() -> Building:
     if choice() == OWN:
         return st.session_state.own
     return compute.sample(choice())
+
+
+def fit_columns() -> None:
+    """Give maps whose drawing does not fit this building the building's own."""
+    offered = compute.prior_drawings(building())
+    fitted = tuple(
+        one
+        if one.prior_drawing in offered
+        else replace(one, prior_drawing=PriorDrawing.OWN)
+        for one in settings().columns
+    )
+    if fitted != settings().columns:
+        change(columns=fitted)
 
 
 def drawing_title(name: str) -> str:

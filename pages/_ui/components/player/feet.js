@@ -79,9 +79,9 @@ function showTable(p, { cells, heads, worth }, { series, blank }) {
 function worthWords(series, blank, step) {
   const f2 = worthInReadings(blank.looked.f2, series.looked.f2, step, 1);
   const bits = worthInReadings(blank.all.bits, series.all.bits, step, -1);
-  const words = (n) => (n === null ? "more than this tour" : `${n}`);
+  const words = (n) => (n === null ? "more readings than this tour has" : `${n} readings`);
   const inF2 = Number.isNaN(series.looked.f2[step]) ? "" : `${words(f2)} (F2, looked at), `;
-  return `Worth in readings without a drawing: ${inF2}${words(bits)} (bits, all cells)`;
+  return `Worth, without a drawing: ${inF2}${words(bits)} (bits, all cells)`;
 }
 
 // ---- ladders -----------------------------------------------------------------------------

@@ -100,8 +100,7 @@ function handSlider(p, i, name) {
 function chooseWord(p, i, word, value) {
   if (word === "pair") p.byHand[i] = value === BY_HAND;
   if (value !== BY_HAND) Object.assign(p.state.columns[i], wordChanges(word, value));
-  recolour(p);
-  commit(p, COMMIT_DELAY);
+  if (recolour(p)) commit(p, COMMIT_DELAY);
 }
 
 function showHeaders(p) {

@@ -3,7 +3,7 @@
 // Python names the parts that it knows of and sends those that a commit does not list as
 // held; so a changed header of a column costs the part that is new, and no more.
 
-const HELD_MAX = 60; // parts; the oldest that are not in use go first
+const HELD_BYTES = 1e8; // of parts that are kept; the oldest not in use go first
 
 // Decoded parts by id, shared by all players of this page.
 const held = new Map();
@@ -22,13 +22,22 @@ async function holdParts(parts, payloads) {
   const decode = async (part, i) =>
     isNew(part, i) ? [[part.id, await DECODERS[part.kind](payloads[i])]] : [];
   for (const [id, part] of (await Promise.all(parts.map(decode))).flat()) held.set(id, part);
-  const inUse = new Set(parts.map(({ id }) => id));
+  dropParts(new Set(parts.map(({ id }) => id)));
+}
+
+function dropParts(inUse) {
+  let bytes = [...held.values()].reduce((sum, part) => sum + bytesOf(part), 0);
   for (const id of [...held.keys()].filter((one) => !inUse.has(one))) {
-    if (held.size <= HELD_MAX) return;
+    if (bytes <= HELD_BYTES) return;
+    bytes -= bytesOf(held.get(id));
     held.get(id).picture?.close();
     held.delete(id);
   }
 }
+
+// Of a part that is one array, or an object of arrays.
+const bytesOf = (part) =>
+  part.byteLength ?? Object.values(part).reduce((sum, value) => sum + (value?.byteLength ?? 0), 0);
 
 const heldParts = () => [...held.keys()];
 

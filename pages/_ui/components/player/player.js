@@ -174,12 +174,12 @@ function retheme(p) {
 // ---- what is drawn again -----------------------------------------------------------------
 
 // After a change of a setting or of what is shown: redraws the maps that it changes.
-// Where a part is missing, what is shown stays until it comes.
+// Where a part is missing, what is shown stays until it comes. Returns whether all are there.
 function recolour(p) {
   const { state } = p;
   if (!state.columns.every((setting) => isHeld(p, setting))) {
     request(p);
-    return;
+    return false;
   }
   const began = performance.now();
   assembleColumns(p);
@@ -198,6 +198,7 @@ function recolour(p) {
   refresh(p);
   p.root.dataset.ready = "1";
   p.root.dataset.recolourMs = (performance.now() - began).toFixed(2);
+  return true;
 }
 
 // Scores and paints a map under its setting; returns whether either had changed.

@@ -25,8 +25,7 @@ function setColumns(p, columns) {
   p.byHand = [];
   p.open = null;
   pause(p);
-  recolour(p);
-  commit(p);
+  if (recolour(p)) commit(p);
 }
 
 // An example starts before the first reading, with the question.
