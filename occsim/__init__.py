@@ -8,7 +8,13 @@ map is, and which priors are best.
 
 from occsim.building import Building
 from occsim.corrections import Corrections
-from occsim.errors import DrawingError, OccsimError, ParameterError, TrajectoryError
+from occsim.errors import (
+    DrawingError,
+    OccsimError,
+    ParameterError,
+    RobotFileError,
+    TrajectoryError,
+)
 from occsim.evidence import collect_evidence, collect_totals, stream_evidence
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
 from occsim.flaws import DrawingFlaws, flawed_mask
@@ -73,7 +79,14 @@ from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.samples.lens import lens_world
-from occsim.scan import Scan, ScanLog, ScanNoise, evidence_from_scans, simulate_scans
+from occsim.scan import (
+    Mapper,
+    Scan,
+    ScanLog,
+    ScanNoise,
+    evidence_from_scans,
+    simulate_scans,
+)
 from occsim.sensor import BehindHit, Sensor
 from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
@@ -97,6 +110,7 @@ __all__ = [
     "HeadingMode",
     "LossSurface",
     "MapSettings",
+    "Mapper",
     "MappingRun",
     "Measure",
     "Objective",
@@ -111,6 +125,7 @@ __all__ = [
     "Reading",
     "Region",
     "Reliability",
+    "RobotFileError",
     "Sample",
     "Scan",
     "ScanLog",

@@ -40,6 +40,10 @@ class TrajectoryError(OccsimError):
     """Poses, or the file they come from, cannot be used as a trajectory."""
 
 
+class RobotFileError(OccsimError):
+    """A file of a robot, a map or a log of scans, cannot be used."""
+
+
 def choice(name: str, value: object, kind: type[_Choice]) -> _Choice:
     """Return the member of an enum that a parameter names, by itself or its value.
 

@@ -281,12 +281,12 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray
     cell, within = _cells_of_pixels(max(grid.height_px, grid.width_px), grid.cell_px)
     counter = base[reading] + cell[row] * windows.n_cols + cell[col]
     changes = windows.sums(counter, sign)
-    # Each change counts for its whole cell, less the pixels left of it.
-    before = windows.sums(counter, sign * within[col])
     by_row = changes.reshape(-1, windows.n_cols)
     np.cumsum(by_row, axis=1, out=by_row)
-    changes *= grid.cell_px
-    changes -= before
+    if grid.cell_px > 1:
+        # Each change counts for its whole cell, less the pixels left of it.
+        changes *= grid.cell_px
+        changes -= windows.sums(counter, sign * within[col])
     return changes
 
 

@@ -7,7 +7,15 @@ one for each pixel.
 
 from occsim.scan.evidence import evidence_from_scans
 from occsim.scan.log import Scan, ScanLog
+from occsim.scan.mapper import Mapper
 from occsim.scan.noise import ScanNoise
 from occsim.scan.simulate import simulate_scans
 
-__all__ = ["Scan", "ScanLog", "ScanNoise", "evidence_from_scans", "simulate_scans"]
+__all__ = [
+    "Mapper",
+    "Scan",
+    "ScanLog",
+    "ScanNoise",
+    "evidence_from_scans",
+    "simulate_scans",
+]

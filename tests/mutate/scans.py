@@ -80,4 +80,32 @@ SCANS: tuple[Mutation, ...] = (
         ("tests/test_scan_noise.py",),
         "range finders look through glass",
     ),
+    Mutation(
+        "occsim/scan/mapper.py",
+        "if known is None or known[1] != fov_rad or not _same(known[0], bearings_rad):",
+        "if known is None:",
+        ("tests/test_mapper.py",),
+        "range finders may take turns in one map",
+    ),
+    Mutation(
+        "occsim/scan/mapper.py",
+        "np.copyto(cells, np.clip(cells, -bound, bound), where=in_view != 0)",
+        "np.clip(cells, -bound, bound, out=cells)",
+        ("tests/test_mapper.py",),
+        "saturation leaves cells alone that were not updated",
+    ),
+    Mutation(
+        "occsim/scan/mapper.py",
+        "cells -= self._prior[place] * in_view",
+        "cells -= self._prior[place]",
+        ("tests/test_mapper.py",),
+        "the prior is subtracted where a cell is read, not where it could be",
+    ),
+    Mutation(
+        "occsim/_npz.py",
+        "if entry.file_size > most or entry.flag_bits & 1:",
+        "if entry.flag_bits & 1:",
+        ("tests/test_mapper.py",),
+        "an archive is measured before it is unpacked",
+    ),
 )
