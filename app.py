@@ -35,7 +35,6 @@ with shell.page("app.py"):
             f"The robot maps “{sample.title}”. White is free, black is occupied. "
             "Cells that it has not seen yet are hatched and show the drawing: light "
             "grey for space, dark grey for walls. Poses are known exactly, the sensor "
-            "has no noise, "
-            "and the world is flat."
+            "has no noise, and the world is flat."
         )
     st.caption(words.SOURCE)

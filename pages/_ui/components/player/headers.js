@@ -70,7 +70,7 @@ function newHeader(p, i) {
     showHeaders(p);
   });
   const hand = element("div", { class: "hand", hidden: "" });
-  for (const name of Object.keys(SLIDERS)) hand.append(handSlider(p, i, name));
+  for (const name of ["p_wall", "p_space"]) hand.append(handSlider(p, i, name));
   header.append(more, hand);
   return header;
 }
