@@ -34,7 +34,7 @@ _ROWS = (
         "ties painted as wall",
     ),
     (
-        "player/model.js",
+        "shared/logodds.js",
         "Math.round((Math.log(p) - Math.log1p(-p)) / LATTICE) * LATTICE",
         "Math.log(p) - Math.log1p(-p)",
         MODEL,
