@@ -9,7 +9,7 @@ from occsim._types import ByteArray
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import direction_peaks, main_direction
 from occsim.walls.doors import Door, doorways_of, find_doors, leaves
-from occsim.walls.groups import doorways, without_short, without_strays
+from occsim.walls.groups import doorways, without_frame, without_short, without_strays
 from occsim.walls.hollow import hollow_walls, oblique_walls
 from occsim.walls.params import WallParams
 from occsim.walls.raster import as_bytes, box, components, dilated, opened
@@ -84,9 +84,9 @@ def detect_walls(
     ink = _ink(find_ink(sheet.dark, params.ink_level), sheet.scale, params)
     hollow = _hollow(sheet.dark, ink)
     walls = ink.solid | hollow
-    found = walls
+    found = without_frame(walls)
     if ink.m.gaps:
-        found = without_strays(walls, ink.solid, ink.m)
+        found = without_strays(found, ink.solid, ink.m)
     if params.min_piece_px:
         found = without_short(found, params.min_piece_px * sheet.scale)
     certainty, shaky = _certainty(ink, walls, found, sheet.scale)
