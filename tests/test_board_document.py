@@ -163,24 +163,31 @@ def test_length_and_crop_have_two_points_or_none(n):
     assert decode_commit(bad, document(), BoardMode.CROP) is None
 
 
-def test_browser_gets_header_drawing_walls_and_corrections_in_this_order():
+def test_browser_gets_header_drawing_walls_corrections_and_doubts_in_this_order():
     base = pack_mask(np.ones(SHAPE, dtype=bool))
+    doubtful = pack_mask(np.zeros(SHAPE, dtype=bool))
     overlay = box(3, 4, 5, 6)
     data = board_data(
         b"picture",
-        document(base=base, overlay=overlay, points=(BoardPoint(x_px=1.5, y_px=2),)),
+        document(
+            base=base,
+            overlay=overlay,
+            doubtful=doubtful,
+            points=(BoardPoint(x_px=1.5, y_px=2),),
+        ),
         mode=BoardMode.WALLS,
         key="board",
     )
     length = int.from_bytes(data[:4], "little")
     header = json.loads(data[4 : 4 + length])
     sent = data[4 + length :]
-    assert sent == b"picture" + base + overlay.packed
-    assert header["sizes"] == [7, len(base), len(overlay.packed)]
+    assert sent == b"picture" + base + overlay.packed + doubtful
+    assert header["sizes"] == [7, len(base), len(overlay.packed), len(doubtful)]
     assert (header["width"], header["height"]) == (150, 100)
     assert header["tilePx"] == TILE_PX
     assert header["points"] == [[1.5, 2, 1]]
-    planes = unpack_mask(sent[-len(overlay.packed) :], (2, *SHAPE))
+    corrections = sent[7 + len(base) : -len(doubtful)]
+    planes = unpack_mask(corrections, (2, *SHAPE))
     np.testing.assert_array_equal(planes, overlay.planes)
 
 

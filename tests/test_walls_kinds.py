@@ -309,6 +309,12 @@ def reduced(sheet: np.ndarray, wall: np.ndarray, factor: float) -> Pair:
     return cv2.resize(sheet, size, interpolation=area), true > 127
 
 
+def framed(px: int) -> Pair:
+    """A house on a sheet with a thick frame."""
+    wall = base()
+    return black_on(wall | boxes(wall.shape, *ring(12, 12, 588, 388, px))), wall
+
+
 KINDS: dict[str, Callable[[], Pair]] = {
     "two rooms filled orange": lambda: filled_rooms((255, 200, 60)),
     "two rooms filled cream": lambda: filled_rooms((248, 226, 165)),
@@ -326,6 +332,8 @@ KINDS: dict[str, Callable[[], Pair]] = {
     "red ink": lambda: on_paper((255, 255, 255), (200, 30, 30)),
     "pale grey walls": lambda: on_paper((255, 255, 255), (190, 190, 190)),
     "mostly grey sheet": half_grey,
+    "frame as thick as walls": lambda: framed(8),
+    "thinner frame": lambda: framed(5),
     "house and wing": lambda: wing(False),
     "wing with windows": lambda: wing(True),
     "joined by windows": joined_by_windows,
@@ -406,6 +414,13 @@ def test_dropped_pieces_are_doubtful():
     detection = detect_walls(Drawing(rgb=sheet))
     assert detection.certainty.dropped >= 1
     assert detection.doubtful[62:74, 200:800].mean() > 0.9
+
+
+def test_a_house_without_doors_is_no_frame():
+    """It reaches to the borders, but holds less wall than it is itself."""
+    wall = boxes((400, 600), *ring(12, 12, 588, 388, 8), (250, 150, 350, 158))
+    found = detect_walls(Drawing(rgb=black_on(wall))).mask
+    assert compare_masks(found, wall).recall >= 0.99
 
 
 def test_scale_is_proposed_from_doorways():

@@ -18,8 +18,11 @@ from occsim import (
     dump_trajectory,
     load_sample,
 )
+from occsim.corrections import unpack_mask
+from occsim.io.images import drawing_png
 from occsim.io.project import Project, dump_project
-from occsim.walls import WallParams
+from occsim.walls import WallParams, detect_walls
+from pages._ui import compute
 from pages._ui.compute import with_walls
 from pages._ui.state import OPENING
 from pages._ui.your_building import poses
@@ -55,6 +58,23 @@ def press(app, label):
     next(button for button in app.button if button.label == label).click().run()
     assert not app.exception
     return app
+
+
+def test_doubtful_pieces_are_counted_and_go_to_the_board():
+    """The page says how many; walls from elsewhere have none."""
+    drawing = load_sample("b").drawing
+    app = upload(at("1 Drawing"), "Drawing", "b.png", drawing_png(drawing))
+    found = detect_walls(own(app).drawing)
+    n = found.certainty.doubtful
+    assert n > 0
+    app = at("3 Walls", app)
+    expected = f"{n} doubtful pieces to accept or remove in 4 Corrections"
+    assert any(expected in text for text in said(app.markdown))
+    app = at("4 Corrections", app)
+    sent = app.session_state["boards"]["board_walls"].imposed.doubtful
+    assert unpack_mask(sent, drawing.shape).sum() == found.doubtful.sum()
+    other = replace(own(app), found=~found.mask)
+    assert compute.doubtful(other) == b""
 
 
 def with_rooms():

@@ -9,10 +9,10 @@ from occsim._types import ByteArray
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import direction_peaks, main_direction
 from occsim.walls.doors import Door, doorways_of, find_doors, leaves
-from occsim.walls.groups import doorways, without_short, without_strays
+from occsim.walls.groups import doorways, without_frame, without_short, without_strays
 from occsim.walls.hollow import hollow_walls, oblique_walls
 from occsim.walls.params import WallParams
-from occsim.walls.raster import box, components, dilated, opened
+from occsim.walls.raster import as_bytes, box, components, dilated, opened
 from occsim.walls.result import Certainty, Stage, WallDetection
 from occsim.walls.sheet import Sheet, find_ink, first_scale, scaled, sheet_of
 from occsim.walls.strokes import Measures, measure
@@ -84,12 +84,15 @@ def detect_walls(
     ink = _ink(find_ink(sheet.dark, params.ink_level), sheet.scale, params)
     hollow = _hollow(sheet.dark, ink)
     walls = ink.solid | hollow
-    found = walls
+    found = without_frame(walls)
     if ink.m.gaps:
-        found = without_strays(walls, ink.solid, ink.m)
+        found = without_strays(found, ink.solid, ink.m)
     if params.min_piece_px:
         found = without_short(found, params.min_piece_px * sheet.scale)
-    certainty, doubtful = _certainty(ink, walls, found, sheet.scale)
+    certainty, shaky = _certainty(ink, walls, found, sheet.scale)
+    doubtful = sheet.back(shaky)
+    # Counted as they are given back, but on no more pixels than were worked on.
+    counted = components(shaky if sheet.scale < 1 else as_bytes(doubtful))
     stages = (
         Stage("Darkness", sheet.picture(255 - sheet.dark)),
         _stage(sheet, "Ink", ink.every),
@@ -99,7 +102,10 @@ def detect_walls(
         _stage(sheet, "Connected walls", found, walls),
     )
     return WallDetection(
-        sheet.back(found), stages, doubtful=sheet.back(doubtful), certainty=certainty
+        sheet.back(found),
+        stages,
+        doubtful=doubtful,
+        certainty=replace(certainty, doubtful=len(counted.area) - 1),
     )
 
 

@@ -20,6 +20,9 @@ LIKE_WALL = 0.35, 1.5
 SMALL_GROUP = 10.0
 """Length of a group of hollow walls, in usual walls, up to which it is furniture."""
 
+FRAME_MARGIN = 0.06
+"""Farthest that a sheet's frame is from its borders, share of the longer side."""
+
 FULL = 0.7
 """Share of the box around it that a column fills, and a letter does not."""
 
@@ -52,6 +55,30 @@ def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray
         kept &= full & (shorter >= m.wall)
     kept |= (groups.longest > SMALL_GROUP * m.wall) & (shorter > 2 * m.wall)
     return walls & groups.chosen(kept)
+
+
+def without_frame(walls: ByteArray) -> ByteArray:
+    """Drop the frame of a sheet: a plain closed rectangle along all of its borders.
+
+    A house has doors and partitions; what has neither, and holds more walls than it
+    is itself, is drawn around the plan.
+    """
+    groups = components(walls)
+    k = int(np.argmax(groups.width * groups.height))
+    left, top, width, height = (
+        int(side[k]) for side in (groups.left, groups.top, groups.width, groups.height)
+    )
+    rows, cols = walls.shape
+    margin = max(left, top, cols - left - width, rows - top - height)
+    if margin > FRAME_MARGIN * max(walls.shape) or 2 * groups.area[k] > walls.sum():
+        return walls
+    frame = groups.labels[top : top + height, left : left + width] == k
+    px = -(-int(groups.area[k]) // (width + height))  # twice as thick as it is drawn
+    sides = frame[:px], frame[-px:], frame[:, :px].T, frame[:, -px:].T
+    is_plain = not frame[px:-px, px:-px].any()
+    if is_plain and all(side.any(axis=0).all() for side in sides):
+        return np.asarray(walls & (groups.labels != k), dtype=np.uint8)
+    return walls
 
 
 def without_short(walls: ByteArray, shortest_px: float) -> ByteArray:

@@ -38,6 +38,8 @@ class Certainty:
         Share of the ink that is in no wall, in [0, 1].
     dropped : int
         Pieces that looked like walls but belong to no building.
+    doubtful : int
+        Pieces that are neither plainly wall nor plainly not.
     wall_px : float
         Thickness of most walls, px of the drawing; NaN where none were found.
     doors_px : tuple of float
@@ -51,6 +53,7 @@ class Certainty:
     confidence: float = float("nan")
     removed_share: float = float("nan")
     dropped: int = 0
+    doubtful: int = 0
     wall_px: float = float("nan")
     doors_px: tuple[float, ...] = ()
     doorways_px: tuple[float, ...] = ()

@@ -28,6 +28,7 @@ from occsim import (
 )
 from occsim._types import BoolArray, FloatArray
 from occsim.building import Building, random_trajectory
+from occsim.corrections import pack_mask
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
@@ -360,6 +361,15 @@ def detection(drawing: Drawing, params: WallParams) -> WallDetection:
 def _detection(digest: str, params: WallParams, _drawing: Drawing) -> WallDetection:
     with core():
         return detect_walls(_drawing, params)
+
+
+def doubtful(building: Building) -> bytes:
+    """The doubtful pieces of a building's walls, packed; none if they were not found
+    in its drawing."""
+    found = detection(building.drawing, building.wall_params)
+    if found.certainty.doubtful and (found.mask == building.walls_found).all():
+        return pack_mask(found.doubtful)
+    return b""
 
 
 def stage_pictures(drawing: Drawing, params: WallParams) -> list[tuple[str, bytes]]:

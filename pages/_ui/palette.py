@@ -31,6 +31,7 @@ HATCH_LIGHT = "#ffffff"
 # Marks over a drawing or a map.
 PAPER = "#ffffff"
 WALL_MASK = "#aa4499"
+DOUBTFUL = "#857000"
 GROUND_TRUTH = "#117733"
 PATH = "#00856a"
 ROBOT = "#00856a"

@@ -22,7 +22,16 @@ def first_document(mode):
     wall = np.zeros((HEIGHT_PX, WIDTH_PX), dtype=bool)
     wall[100:110, 20:340] = True
     base = b"" if mode in (BoardMode.MEASURE, BoardMode.CROP) else pack_mask(wall)
-    return BoardDocument(height_px=HEIGHT_PX, width_px=WIDTH_PX, base=base)
+    doubtful = np.zeros_like(wall)
+    if "doubtful" in st.query_params:
+        # A piece of the wall, and one beside it.
+        doubtful[100:110, 20:60] = doubtful[140:150, 200:260] = True
+    return BoardDocument(
+        height_px=HEIGHT_PX,
+        width_px=WIDTH_PX,
+        base=base,
+        doubtful=pack_mask(doubtful) if doubtful.any() else b"",
+    )
 
 
 def paper():

@@ -92,6 +92,12 @@ def board(page, board_url):
     return Board(page, board_url)
 
 
+@pytest.fixture
+def doubtful(page, board_url):
+    """A board with two doubtful pieces: 400 px of the wall, and 600 px beside it."""
+    return Board(page, board_url, size="small&doubtful=1")
+
+
 def near(point, x, y, tolerance=0.75):
     return abs(point[0] - x) <= tolerance and abs(point[1] - y) <= tolerance
 
@@ -140,6 +146,64 @@ def test_the_last_of_strokes_over_each_other_holds(board):
     # eraser removed a part of the corners.
     assert 0 < facts["added"] < 2 * 2 * (110 + 70 + 4)
     assert facts["erased"] > 110 * 70
+
+
+def left(board, n):
+    """Wait until so many doubtful pieces are open."""
+    expect(board.root).to_have_attribute("data-doubtful", str(n))
+
+
+def test_one_click_accepts_or_removes_a_doubtful_piece(doubtful):
+    left(doubtful, 2)
+    doubtful.tool("accept")
+    doubtful.click(230, 145)
+    left(doubtful, 1)
+    assert doubtful.agrees()["added"] == 600
+    doubtful.tool("reject")
+    doubtful.click(40, 105)
+    left(doubtful, 0)
+    facts = doubtful.agrees()
+    assert (facts["added"], facts["erased"]) == (600, 400)
+    doubtful.steps(2)
+    doubtful.act("undo")
+    left(doubtful, 1)
+    assert doubtful.until(lambda facts: not facts["erased"])["added"] == 600
+
+
+@pytest.mark.parametrize(
+    ("act", "added", "erased"), [("accept-all", 1000, 0), ("reject-all", 0, 1000)]
+)
+def test_all_doubtful_pieces_are_decided_in_one_step(doubtful, act, added, erased):
+    doubtful.act(act)
+    left(doubtful, 0)
+    facts = doubtful.agrees()
+    assert (facts["added"], facts["erased"]) == (added, erased)
+    doubtful.steps(1)
+    expect(doubtful.root.locator(f"[data-act={act}]")).to_be_disabled()
+    doubtful.act("undo")
+    left(doubtful, 2)
+
+
+def test_doubtful_pieces_are_decided_by_the_keyboard_alone(doubtful):
+    """N goes to the piece of the wall first, then to the one below it."""
+    doubtful.root.locator("canvas").focus()
+    for key in ("a", "n", "Enter", "d", "n", "Enter"):
+        doubtful.page.keyboard.press(key)
+    left(doubtful, 0)
+    # The mask stays as it was: its piece is wall, and the other is not.
+    doubtful.until(lambda facts: (facts["added"], facts["erased"]) == (400, 600))
+
+
+def test_a_click_beside_all_pieces_decides_nothing(doubtful):
+    doubtful.tool("accept")
+    doubtful.click(300, 200)
+    doubtful.steps(0)
+    left(doubtful, 2)
+
+
+def test_without_doubtful_pieces_nothing_offers_to_decide_them(board):
+    for name in ("[data-tool=accept]", "[data-tool=reject]", "[data-act=next-piece]"):
+        expect(board.root.locator(name)).to_have_count(0)
 
 
 def test_shift_keeps_a_straight_line_level(board):

@@ -16,6 +16,8 @@ function newBoard({ width = 150, height = 100, mode = "walls", overlay, points =
     sent,
     size: { width, height },
     overlay: { width, height, pixels: doc.overlay },
+    doubtful: new Uint8Array(size),
+    pieces: [],
     mask: { width, height, pixels: new Uint8Array(size) },
     tint: { getContext: () => ({ putImageData() {} }) },
     root: { dataset: {}, querySelector: () => ({ setAttribute() {}, dataset: {} }) },
@@ -169,4 +171,26 @@ test("points are undone and done again", () => {
   assert.deepEqual(b.doc.points, [[1, 2, 1]]);
   board.redo(b);
   assert.deepEqual(b.doc.points, [[1, 2, 1], [3, 4, 1]]);
+});
+
+test("pieces touch at corners, and not across the ends of rows", () => {
+  // Rows of four: the first piece goes down a diagonal, the last pixel is alone.
+  const flags = Uint8Array.from([1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0]);
+  const pieces = board.piecesOf(flags, 4);
+  assert.deepEqual(pieces.map(({ pixels }) => pixels), [[0, 5, 10], [3], [12]]);
+  assert.deepEqual(pieces[0].box, { x0: 0, y0: 0, x1: 3, y1: 3 });
+});
+
+test("pieces are decided in one step, which undo takes back", () => {
+  const b = newBoard();
+  b.doubtful.fill(1, 10, 14);
+  b.doubtful.fill(1, 1520, 1523);
+  b.pieces = board.piecesOf(b.doubtful, 150);
+  board.decide(b, b.pieces, board.ADDED);
+  assert.equal(board.openPieces(b).length, 0);
+  assert.equal(b.doc.overlay.reduce((sum, value) => sum + (value === board.ADDED), 0), 7);
+  assert.equal(b.doc.past.length, 1);
+  step(b, board.undo);
+  assert.equal(board.openPieces(b).length, 2);
+  clearTimeout(b.commitTimer);
 });

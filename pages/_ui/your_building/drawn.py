@@ -67,7 +67,11 @@ def walls_board(key: str) -> None:
 
     def make() -> BoardDocument:
         found, corrections = shown()
-        return document(base=pack_mask(found), overlay=corrections)
+        return document(
+            base=pack_mask(found),
+            overlay=corrections,
+            doubtful=compute.doubtful(state.building()),
+        )
 
     def take(drawn: BoardDocument) -> None:
         state.edit_building(corrections=drawn.corrections)

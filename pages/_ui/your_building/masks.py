@@ -29,8 +29,9 @@ def correct() -> None:
         drawn.walls_board("board_walls")
     with right:
         st.markdown(
-            "**See** the detected walls, tinted. **Try** to erase what is not wall "
-            "and to close gaps. **Why:** the prior is made from this mask alone."
+            "**See** the detected walls, tinted; striped pieces are doubtful. **Try** "
+            "to accept or remove these, to erase what is not wall and to close gaps. "
+            "**Why:** the prior is made from this mask alone."
         )
         building = state.building()
         st.caption(f"{building.n_added:,} px added, {building.n_erased:,} px erased")

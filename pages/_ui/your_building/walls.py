@@ -47,6 +47,9 @@ def _how_sure() -> str:
     ]
     if sure.dropped:
         facts.append(f"{lengths.count(sure.dropped, 'piece')} dropped")
+    if sure.doubtful:
+        pieces = lengths.count(sure.doubtful, "doubtful piece")
+        facts.append(f"{pieces} to accept or remove in 4 Corrections")
     return " ".join(["; ".join(facts) + ".", *sure.notes])
 
 

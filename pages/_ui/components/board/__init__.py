@@ -27,6 +27,7 @@ SCRIPTS = (
     "camera.js",
     "document.js",
     "walls.js",
+    "doubt.js",
     "paths.js",
     "tools.js",
     "paint.js",
@@ -83,6 +84,8 @@ class BoardDocument:
         `occsim.corrections.pack_mask`; empty for none.
     overlay : Corrections or None
         Corrections of that mask; None for no corrections.
+    doubtful : bytes
+        Pieces to be accepted or removed, packed in the same way; empty for none.
     points : tuple of BoardPoint
         The points drawn in the other modes.
     rev : int
@@ -95,6 +98,7 @@ class BoardDocument:
     width_px: int
     base: bytes = b""
     overlay: Corrections | None = None
+    doubtful: bytes = b""
     points: tuple[BoardPoint, ...] = ()
     rev: int = 0
     token: str = field(default_factory=lambda: secrets.token_hex(6))
@@ -118,6 +122,7 @@ COLOURS = {
     "paper": palette.PAPER,
     "halo": palette.HALO,
     "wallMask": palette.WALL_MASK,
+    "doubtful": palette.DOUBTFUL,
     "stroke": palette.STROKE,
     "eraser": palette.ERASER,
     "path": palette.PATH,
@@ -202,7 +207,7 @@ def board_data(
     metres_per_px: float | None = None,
     height_px: int = HEIGHT_PX,
 ) -> bytes:
-    """Return what the browser gets: header, drawing, walls, corrections."""
+    """Return what the browser gets: header, drawing, walls, corrections, doubts."""
     header = {
         "key": key,
         "mode": mode.value,
@@ -218,7 +223,13 @@ def board_data(
         "tilePx": TILE_PX,
         "colours": COLOURS,
     }
-    return packed(header, backdrop, document.base, document.corrections.packed)
+    return packed(
+        header,
+        backdrop,
+        document.base,
+        document.corrections.packed,
+        document.doubtful,
+    )
 
 
 def decode_commit(

@@ -32,6 +32,7 @@ function opened(parentElement) {
     size: { width: 1, height: 1 },
     tint: offscreen(1, 1),
     widths: {},
+    pieces: [],
     opacity: 0.6,
     straight: false,
     tool: "",
@@ -79,18 +80,19 @@ function stopTimers(b) {
 
 async function receive(b, data) {
   const turn = ++b.loading;
-  const [header, picture, base, overlay] = readPacked(data);
+  const [header, picture, base, overlay, doubt] = readPacked(data);
   // On a large screen the board takes what the page leaves.
   b.root.style.height = `max(${header.heightPx}px, 100vh - 250px)`;
   const size = header.width * header.height;
-  const [bitmap, walls, planes] = await Promise.all([
+  const [bitmap, walls, planes, doubtful] = await Promise.all([
     pictureOf(picture),
     decodedFlags(base, size),
     decodedFlags(overlay, 2 * size),
+    decodedFlags(doubt, size),
   ]);
   // Newer data may have arrived while these were decoded.
   if (turn !== b.loading || b.closed) return;
-  take(b, header, bitmap, walls, overlayOf(planes, size));
+  take(b, header, bitmap, walls, overlayOf(planes, size), doubtful);
 }
 
 async function decodedFlags(bytes, count) {
@@ -100,10 +102,10 @@ async function decodedFlags(bytes, count) {
 const overlayOf = (planes, size) =>
   planes.subarray(0, size).map((isAdded, i) => (isAdded ? ADDED : planes[size + i] ? ERASED : 0));
 
-function take(b, header, bitmap, base, overlay) {
+function take(b, header, bitmap, base, overlay, doubtful) {
   // The same document again (the scale has changed) can wait until the gesture ends.
   if (b.gesture && b.doc.identity === identityOf(header)) {
-    b.waiting = () => take(b, header, bitmap, base, overlay);
+    b.waiting = () => take(b, header, bitmap, base, overlay, doubtful);
     return;
   }
   b.waiting = null;
@@ -113,12 +115,16 @@ function take(b, header, bitmap, base, overlay) {
   Object.assign(b, { header, bitmap, colours: header.colours, hasMask: header.hasMask });
   b.size = { width: header.width, height: header.height };
   b.tintWord = pixelOf(rgbOf(b.colours.wallMask));
+  b.doubtWord = pixelOf(rgbOf(b.colours.doubtful));
+  const hadPieces = b.pieces.length > 0;
+  Object.assign(b, { doubtful, pieces: piecesOf(doubtful, header.width) });
   b.doc = documentFor(b, header, base, overlay);
   b.overlay = { ...b.size, pixels: b.doc.overlay };
   b.mask = { ...b.size, pixels: new Uint8Array(base.length) };
   Object.assign(b.tint, b.size);
-  if (isNewMode) buildToolbar(b);
-  if (isNewMode || isNewSize) recallView(b, isNewSize);
+  const isNewBar = isNewMode || hadPieces !== b.pieces.length > 0;
+  if (isNewBar) buildToolbar(b);
+  if (isNewBar || isNewSize) recallView(b, isNewSize);
   measure(b);
   refreshMask(b, wholeOf(b.size));
   b.root.dataset.ready = "1";
@@ -146,7 +152,7 @@ function remember(b) {
 // The view and the tools of the last visit, as far as they fit the current document.
 function recallView(b, isNewSize) {
   const last = memory.get(b.header.key);
-  const tools = MODES[b.header.mode];
+  const tools = toolsOf(b);
   if (last) Object.assign(b, { widths: last.widths, opacity: last.opacity, straight: last.straight });
   const isSame = last && last.size.width === b.size.width && last.size.height === b.size.height;
   if (isSame && b.camera.width === 1) b.camera = { ...last.camera };

@@ -3,10 +3,11 @@
 function buildToolbar(b) {
   const mode = b.header.mode;
   const part = (name) => partOf(b.root, name);
-  part("tools").replaceChildren(...MODES[mode].map((name) => toolButton(b, name)));
+  part("tools").replaceChildren(...toolsOf(b).map((name) => toolButton(b, name)));
   const isWalls = mode === "walls";
   const hasAngles = MODES[mode].some((name) => ANGLED.has(name));
-  const edits = ["undo", "redo", ...(isWalls ? [] : ["remove"])];
+  const pieces = b.pieces.length ? ["next-piece", "accept-all", "reject-all"] : [];
+  const edits = ["undo", "redo", ...(isWalls ? pieces : ["remove"])];
   part("edits").replaceChildren(...[...(hasAngles ? ["straight"] : []), ...edits].map((name) => actionButton(b, name)));
   part("view").replaceChildren(...["zoom-out", "fit", "zoom-in"].map((name) => actionButton(b, name)));
   part("width").oninput = (event) => setWidth(b, Number(event.target.value));
@@ -44,6 +45,9 @@ function act(b, name) {
   if (name === "undo") undo(b);
   if (name === "redo") redo(b);
   if (name === "remove") setPoints(b, []);
+  if (name === "next-piece") nextPiece(b);
+  if (name === "accept-all") decide(b, openPieces(b), ADDED);
+  if (name === "reject-all") decide(b, openPieces(b), ERASED);
   if (name === "straight") b.straight = !b.straight;
   if (name === "fit") fit(b.camera, b.size);
   if (name === "zoom-in") zoomAt(b.camera, b.size, middle, ZOOM_STEP);
@@ -96,13 +100,16 @@ function showCursor(b) {
 // Disables buttons without effect and updates the numbers.
 function showState(b) {
   if (!b.doc) return;
+  const nOpen = openPieces(b).length;
   const off = { undo: !b.doc.past.length, redo: !b.doc.future.length, remove: !b.doc.points.length };
+  for (const name of ["next-piece", "accept-all", "reject-all"]) off[name] = !nOpen;
   for (const [name, isOff] of Object.entries(off)) {
     const element = b.root.querySelector(`[data-act=${name}]`);
     if (element) element.disabled = isOff;
   }
   b.root.querySelector("[data-act=straight]")?.setAttribute("aria-pressed", String(b.straight));
   partOf(b.root, "opacity-row").hidden = !b.hasMask;
+  b.root.dataset.doubtful = String(nOpen);
   b.root.dataset.steps = String(b.doc.past.length);
   b.root.dataset.points = String(b.doc.points.length);
   showPosition(b);
@@ -118,7 +125,7 @@ function showPosition(b) {
 
 function summary(b) {
   const { mode } = b.header;
-  if (mode === "walls") return [];
+  if (mode === "walls") return b.pieces.length ? [`${b.root.dataset.doubtful} doubtful left`] : [];
   const points = b.doc.points;
   if (mode !== "trajectory" || !points.length) return [];
   const facts = [`${points.length} ${points.length === 1 ? "point" : "points"}, ${lengthText(b, lengthOf(points))}`];

@@ -203,11 +203,12 @@ function keyDown(b, event) {
 }
 
 function canvasKey(b, key, event) {
-  const tool = MODES[b.header.mode].find((name) => TOOLS[name].key === key);
+  const tool = toolsOf(b).find((name) => TOOLS[name].key === key);
   if (tool) chooseTool(b, tool);
   else if (key === " ") holdSpace(b, true);
   else if (key === "Enter") pressKeyboard(b, event);
   else if (key === "Escape") cancelAll(b);
+  else if (key === "n") act(b, "next-piece");
   else if (key === "Delete" || key === "Backspace") deleteSelected(b);
   else if (key === "[" || key === "]") changeWidth(b, key === "]" ? 1 : -1);
   else if (key === "+" || key === "=") act(b, "zoom-in");
@@ -252,6 +253,5 @@ function pressKeyboard(b) {
   b.keyboard ??= [Math.floor(b.size.width / 2) + 0.5, Math.floor(b.size.height / 2) + 0.5];
   if (b.gesture) return endGesture(b);
   startGesture(b, b.keyboard, { pointerType: "mouse", shiftKey: false });
-  const isClick = b.tool === "waypoints" || b.tool === "ruler";
-  if (isClick && b.gesture) endGesture(b);
+  if (TOOLS[b.tool].clicks && b.gesture) endGesture(b);
 }

@@ -32,8 +32,18 @@ const TOOLS = {
     hint: "Drag from corner to corner to erase all wall in a rectangle.",
     icon: '<path stroke-dasharray="3 2.2" d="M4 6h16v12H4z"/><path d="m9.5 9.5 5 5m0-5-5 5"/>',
   },
+  accept: {
+    label: "Accept a doubtful piece", key: "a", start: decideOne(ADDED), clicks: true,
+    hint: "Click a hatched piece to make it wall; N goes to the next.",
+    icon: '<path d="m4 13 5 5L20 6"/>',
+  },
+  reject: {
+    label: "Remove a doubtful piece", key: "d", start: decideOne(ERASED), clicks: true,
+    hint: "Click a hatched piece to remove it; N goes to the next.",
+    icon: '<path d="m5.5 5.5 13 13m0-13-13 13"/>',
+  },
   waypoints: {
-    label: "Waypoints", key: "w", start: waypoints,
+    label: "Waypoints", key: "w", start: waypoints, clicks: true,
     hint: "Click to add a point, on the path to insert one; drag to move, right-click or hold to delete.",
     icon: '<path d="M6.8 16.6 9.5 9M12.6 8.6l3.6 5.6"/><circle cx="6" cy="18.5" r="2"/><circle cx="10.5" cy="6.8" r="2"/><circle cx="17.5" cy="16" r="2"/>',
   },
@@ -43,7 +53,7 @@ const TOOLS = {
     icon: '<path d="M4 17c2.5-9 5.5-12 7-9.5S8.5 15 11 16s4-8 6-7 .5 5 3 6"/>',
   },
   ruler: {
-    label: "Ruler", key: "m", start: ruler,
+    label: "Ruler", key: "m", start: ruler, clicks: true,
     hint: `Click both sides of a door, or drag across it. ${STRAIGHT}`,
     icon: '<path d="M3.5 15.5 15.5 3.5l5 5-12 12zM7 12l2 2m1-5 3 3m0-6 2 2"/>',
   },
@@ -59,11 +69,13 @@ const TOOLS = {
   },
 };
 const MODES = {
-  walls: ["brush", "line", "rectangle", "outline", "eraser", "clear", "hand"],
+  walls: ["brush", "line", "rectangle", "outline", "eraser", "clear", "accept", "reject", "hand"],
   trajectory: ["waypoints", "freehand", "hand"],
   measure: ["ruler", "hand"],
   crop: ["frame", "hand"],
 };
+const DECIDING = new Set(["accept", "reject"]); // only where pieces are doubtful
+const toolsOf = (b) => MODES[b.header.mode].filter((name) => b.pieces.length || !DECIDING.has(name));
 // Tools on which the straight toggle (or Shift) has an effect.
 const ANGLED = new Set(["line", "waypoints", "ruler"]);
 const MAX_WIDTH_PX = 60;
@@ -79,6 +91,9 @@ const ACTIONS = {
     label: "Delete all points",
     icon: '<path d="M5 7h14M10 7V4.5h4V7M7 7l1 12.5h8L17 7M10.5 10.5v6m3-6v6"/>',
   },
+  "next-piece": { label: "Next doubtful piece (N)", icon: '<path d="M4 12h13m-5-6 6 6-6 6"/>' },
+  "accept-all": { label: "Accept all doubtful pieces", icon: '<path d="m2.5 13 4.5 5L15 7m-4.5 9 1.5 2L21.5 7"/>' },
+  "reject-all": { label: "Remove all doubtful pieces", icon: '<path d="m3 7 10 10m0-10L3 17m12-10 6 10m0-10-6 10"/>' },
   "zoom-out": { label: "Zoom out (-, or the wheel once the drawing was clicked)", icon: '<circle cx="10.5" cy="10.5" r="6"/><path d="m15 15 5 5M8 10.5h5"/>' },
   fit: { label: "Fit the drawing (0)", icon: '<path d="M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5"/>' },
   "zoom-in": {

@@ -74,7 +74,9 @@ function refreshMask(b, box) {
     for (let col = 0; col < width; col++, i++) {
       const isWall = overlay[i] ? overlay[i] === ADDED : base[i];
       b.mask.pixels[i] = isWall ? 1 : 0;
-      words[out++] = isWall ? b.tintWord : 0;
+      // Stripes of four pixels, so that a piece is told without its colour.
+      const isStripe = b.doubtful[i] && !overlay[i] && ((col + box.x0 + row + box.y0) & 4);
+      words[out++] = isStripe ? b.doubtWord : isWall ? b.tintWord : 0;
     }
   }
   b.tint.getContext("2d").putImageData(image, box.x0, box.y0);
