@@ -161,7 +161,8 @@ def test_the_prior_map_that_is_downloaded_is_the_recommended_one(page, app_url):
             page.get_by_role("button", name=name, exact=True).click()
         files[name] = waiting.value.path().read_bytes()
     document = json.loads(files["JSON"])
-    kept = {name: document["prior"][name] for name in ("p_wall", "p_space")}
+    names = ("p_wall", "p_space", "scale")
+    kept = {name: document["prior"][name] for name in names}
     run = compute.reference_run("b", Settings(cell_px=5))
     made = run.prior_map(Prior(**kept))
     assert files["NPY"] == prior_npy(made)
