@@ -15,6 +15,7 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
         controls.segments("drawings")
         controls.drawing_errors()
         with st.popover("More settings"):
+            controls.presets()
             if state.settings().surface is not Surface.SOURCE:
                 controls.select("fineness")
             for name in ("region", "behind_hit"):

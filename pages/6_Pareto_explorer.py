@@ -14,6 +14,7 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
         controls.segments("exploring")
         controls.drawing_errors()
         with st.popover("More settings"):
+            controls.presets()
             for name in ("behind_hit", "region"):
                 controls.radio(name)
             for name in ("range_px", "fov_deg", "wall_share", "truth_share"):

@@ -13,6 +13,7 @@ with shell.page("pages/7_Best_prior.py") as lesson:
         controls.slider("min_recall", width=controls.NARROW_PX)
         controls.drawing_errors()
         with st.popover("More settings"):
+            controls.presets()
             for name in ("rule", "behind_hit"):
                 controls.radio(name)
             for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
