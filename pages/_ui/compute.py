@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from occsim import (
     DrawingFlaws,
@@ -29,6 +30,7 @@ from occsim import (
 from occsim._types import BoolArray, FloatArray
 from occsim.building import Building, random_trajectory
 from occsim.corrections import pack_mask
+from occsim.exercises import Exercise, load_exercises
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
@@ -68,6 +70,7 @@ from pages._ui.worker import WORKER
 _CORES = threading.BoundedSemaphore(os.cpu_count() or 1)
 
 
+EXERCISES = Path(__file__).resolve().parents[2] / "assets" / "exercises"
 PriorKey = tuple[PriorDrawing, DrawingFlaws]
 """Which drawing a prior is made from, and what that gets wrong."""
 MANY_ENTRIES = 1_000_000
@@ -137,6 +140,13 @@ def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingR
         # done.
         _ = run.evidence
     return run
+
+
+@shared("Proving the exercises")
+def exercises() -> tuple[Exercise, ...]:
+    """The exercises of this app, each proven."""
+    with core():
+        return load_exercises(EXERCISES)
 
 
 # --- Priors: sweeps and fronts --------------------------------------------------------

@@ -12,7 +12,7 @@ import streamlit as st
 from streamlit.errors import StreamlitPageNotFoundError
 
 from occsim import OccsimError
-from pages._ui import state, words
+from pages._ui import exercising, state, words
 from pages._ui.components.address import address
 
 LOG = logging.getLogger(__name__)
@@ -75,6 +75,12 @@ LESSONS = (
         "Study",
         "All reference drawings at the source's three cell sizes, beside what the "
         "source published.",
+    ),
+    Lesson(
+        "pages/9_Exercises.py",
+        "Exercises",
+        "Find out for yourself: each exercise opens a page with everything set, and is "
+        "judged by what you set there.",
     ),
 )
 
@@ -141,6 +147,7 @@ def page(path: str) -> Iterator[Lesson]:
     if state.link_notice(path):
         st.warning(state.link_notice(path))
     with _last_resort(path):
+        exercising.panel(path)
         yield lesson
     _ending()
 

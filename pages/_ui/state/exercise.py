@@ -1,0 +1,218 @@
+"""The exercise that a student works on: what was predicted, answered and solved."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import streamlit as st
+
+from occsim import Prior
+from occsim.exercises import Exercise, ExerciseState, Verdict, changed, judge
+from occsim.samples import sample_names
+from pages._ui.columns import FLAWS, Column
+from pages._ui.settings import TABLE, Settings, column_with, with_changes
+from pages._ui.state.chosen import (
+    building,
+    choice,
+    choose,
+    defaults,
+    renew_widgets,
+)
+from pages._ui.state.replay import (
+    PLAYER_KEY,
+    TWO_MAPS_KEY,
+    forget_player,
+)
+
+OF_MAP = ("p_wall", "p_space", "uninformative", "rule", "behind_hit", "cell_px")
+"""Settings that each of several maps has for itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """How far a student has come with one exercise.
+
+    ``first`` is what was predicted, None before. ``moved`` holds how far each prior was
+    moved while the pinned cell stayed; ``seen`` the pin and the pair last seen.
+    """
+
+    first: str | None = None
+    answers: Mapping[str, float | str] = field(default_factory=dict)
+    stage: int = 0
+    n_hints: int = 0
+    n_checks: int = 0
+    is_solved: bool = False
+    verdict: Verdict | None = None
+    moved: Mapping[str, float] = field(default_factory=dict)
+    seen: tuple[Any, ...] = ()
+
+
+def attempts() -> dict[str, Attempt]:
+    """Every attempt of this session, by the exercise's id."""
+    return st.session_state.setdefault("attempts", {})
+
+
+def attempt_of(exercise: Exercise) -> Attempt:
+    """The attempt at an exercise; a new one at first."""
+    return attempts().get(exercise.id, Attempt())
+
+
+def keep_attempt(exercise: Exercise, **changes: Any) -> None:
+    """Replace parts of the attempt at an exercise."""
+    made = replace(attempt_of(exercise), **changes)
+    st.session_state.attempts = attempts() | {exercise.id: made}
+
+
+def exercise_id() -> str | None:
+    """The id of the exercise that is open."""
+    return st.session_state.get("exercise")
+
+
+def leave_exercise() -> None:
+    """Close the exercise; what was set stays."""
+    st.session_state.exercise = None
+
+
+def open_exercise(exercise: Exercise) -> None:
+    """Set everything as an exercise opens; settings it does not name are defaults."""
+    state = st.session_state
+    state.exercise = exercise.id
+    given = dict(exercise.settings)
+    choose(given.get("drawing", exercise.setup.drawing))
+    own = {name: value for name, value in given.items() if name in TABLE}
+    state.settings = with_changes(defaults(choice()), own)
+    if exercise.page == "two_maps":
+        state.settings = replace(state.settings, columns=_columns(exercise))
+    key = _player_of(exercise)
+    last = exercise.setup.step
+    n_readings = len(building().trajectory)
+    played = state.played[key]
+    step = n_readings if last == "end" else int(last)
+    cell_px = state.settings.cell_px
+    pin = exercise.setup.cell
+    state.played = state.played | {
+        key: replace(
+            played,
+            step=step,
+            pin_px=None if pin is None else _middle(pin, cell_px),
+            predicted=None,
+        )
+    }
+    keep_attempt(exercise, moved={}, seen=())
+    renew_widgets()
+    forget_player()
+
+
+def _player_of(exercise: Exercise) -> str:
+    return TWO_MAPS_KEY if exercise.page == "two_maps" else PLAYER_KEY
+
+
+def _middle(cell: tuple[int, int], cell_px: int) -> tuple[float, float]:
+    row, col = cell
+    return (col + 0.5) * cell_px, (row + 0.5) * cell_px
+
+
+def _columns(exercise: Exercise) -> tuple[Column, ...]:
+    """Map A is the student's; map B the reference of the exercise, or no drawing."""
+    own = _column({**exercise.settings})
+    reference = exercise.context.reference
+    other = _column(reference) if reference else Column(uninformative=True)
+    return own, other
+
+
+def _column(given: Mapping[str, Any]) -> Column:
+    known = {
+        name: str(value) if name in ("rule", "behind_hit", "prior_drawing") else value
+        for name, value in given.items()
+        if name in Column.__dataclass_fields__
+    }
+    return column_with(Column(), known)
+
+
+# --- Judging --------------------------------------------------------------------------
+
+
+def student(exercise: Exercise) -> ExerciseState | None:
+    """What the student has set, pinned and answered; None on an own building."""
+    if choice() not in sample_names():
+        return None
+    state = st.session_state
+    settings: Settings = state.settings
+    played = state.played[_player_of(exercise)]
+    values = _values(settings, exercise)
+    cell_px = values["cell_px"]
+    pin = played.pin_px
+    n_readings = len(building().trajectory)
+    values |= {
+        "drawing": choice(),
+        "range_px": float(settings.range_px),
+        "fov_deg": float(settings.fov_deg),
+        "clear_no_hit": settings.clear_no_hit,
+        "wall_share": settings.wall_share,
+        "truth_share": settings.truth_share,
+        "region": settings.region,
+        "step": min(played.step, n_readings),
+        "cell": None
+        if pin is None
+        else (int(pin[1] // cell_px), int(pin[0] // cell_px)),
+        "moved": attempt_of(exercise).moved,
+        "answer": attempt_of(exercise).answers,
+    }
+    return changed(ExerciseState(), values)
+
+
+def _values(settings: Settings, exercise: Exercise) -> dict[str, Any]:
+    """The settings of the student's own map: of map A where there are several."""
+    if exercise.page == "two_maps":
+        own: Any = settings.columns[0]
+        flaws = FLAWS[own.flaw]
+    else:
+        own, flaws = settings, settings.flaws
+    found = {name: getattr(own, name) for name in OF_MAP}
+    found["prior_drawing"] = own.prior_drawing.value
+    return found | {name: getattr(flaws, name) for name in flaws.__dataclass_fields__}
+
+
+def watch(exercise: Exercise) -> None:
+    """Note how far the prior was moved while the pinned cell stayed."""
+    state = student(exercise)
+    if state is None:
+        return
+    attempt = attempt_of(exercise)
+    seen = state.cell, state.prior
+    before = attempt.seen
+    if not before or before[0] != state.cell:
+        keep_attempt(exercise, moved={}, seen=seen)
+        return
+    moved = _moved(before[1], state.prior, attempt.moved)
+    if moved != attempt.moved:
+        keep_attempt(exercise, moved=moved)
+
+
+def _moved(
+    first: Prior, now: Prior, so_far: Mapping[str, float]
+) -> Mapping[str, float]:
+    gaps = {
+        "p_wall": abs(now.p_wall - first.p_wall),
+        "p_space": abs(now.p_space - first.p_space),
+    }
+    gaps["any"] = gaps["own_prior"] = max(gaps.values())
+    return {name: max(gap, so_far.get(name, 0.0)) for name, gap in gaps.items()}
+
+
+def check(exercise: Exercise) -> None:
+    """Judge the student's state; a check that holds leads to the next one."""
+    state = student(exercise)
+    if state is None:
+        return
+    attempt = attempt_of(exercise)
+    verdict = judge(exercise, state, attempt.stage)
+    last = len(exercise.checks) - 1
+    stage = min(attempt.stage + 1, last) if verdict.is_solved else attempt.stage
+    keep_attempt(
+        exercise,
+        verdict=verdict,
+        stage=stage,
+        n_checks=attempt.n_checks + 1,
+        is_solved=attempt.is_solved or (verdict.is_solved and attempt.stage == last),
+    )

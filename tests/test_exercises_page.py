@@ -1,0 +1,126 @@
+"""The page of exercises, and their panel on the other pages."""
+
+import json
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from pages._ui import compute, exercising
+from pages._ui.state import exercise as kept
+from tests.test_pages import ROOT, said
+
+LIST = "pages/9_Exercises.py"
+
+
+def exercise(name):
+    return next(one for one in compute.exercises() if one.id == name)
+
+
+def opened(name):
+    """An exercise opened from the list; its page is drawn."""
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.switch_page(LIST).run()
+    app.button(key=f"open_{name}").click().run()
+    app.switch_page(exercising.FOLDER_PAGES[exercise(name).page]).run()
+    assert not app.exception
+    return app
+
+
+def press(app, label):
+    next(one for one in app.button if one.label == label).click()
+    app.run()
+    assert not app.exception
+
+
+def predict(app, option=0):
+    radio = next(one for one in app.radio if one.label.startswith("Predict."))
+    radio.set_value(radio.options[option]).run()
+
+
+def words(app):
+    kinds = (app.markdown, app.caption, app.info, app.success)
+    return "\n".join(text for kind in kinds for text in said(kind))
+
+
+def test_the_list_has_all_of_them():
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.switch_page(LIST).run()
+    assert not app.exception
+    assert sum(one.label == "Open" for one in app.button) == 23
+
+
+def test_every_exercise_opens_on_a_page_that_exists():
+    for one in compute.exercises():
+        assert (ROOT / exercising.FOLDER_PAGES[one.page]).is_file()
+
+
+def test_an_exercise_sets_its_page_up_and_asks_for_the_prediction_first():
+    app = opened("upside_down")
+    chosen = app.session_state["settings"]
+    assert (chosen.rule.value, chosen.p_wall, chosen.p_space) == (
+        "subtract_prior",
+        0.2,
+        0.9,
+    )
+    assert app.session_state["choice"] == "a"
+    assert next(one for one in app.button if one.label == "Check").disabled
+    predict(app)
+    assert not next(one for one in app.button if one.label == "Check").disabled
+
+
+def test_it_is_judged_by_what_the_student_has_set():
+    app = opened("one_clear_look")
+    predict(app)
+    press(app, "Check")
+    assert "Not yet." in words(app)
+    assert "wanted 99 % and 94.4 %" in words(app)
+    settings = app.session_state["settings"]
+    app.session_state["settings"] = compute.with_changes(settings, {"p_wall": 0.12})
+    app.session_state["imposed"] = {}
+    next(one for one in app.number_input if "p_wall" in one.label).set_value(0.111)
+    app.run()
+    press(app, "Check")
+    assert "Solved." in words(app)
+    assert "You predicted: yes." in words(app)
+
+
+def test_hints_come_one_by_one():
+    app = opened("one_clear_look")
+    assert "Hint." not in words(app)
+    press(app, "Hint")
+    assert words(app).count("Hint.") == 1
+    press(app, "Hint")
+    assert words(app).count("Hint.") == 2
+
+
+def test_an_exercise_of_two_maps_judges_map_a():
+    app = opened("mirror_image")
+    first, second = app.session_state["settings"].columns
+    assert (first.rule.value, second.rule.value) == ("subtract_prior", "prior_once")
+
+
+def test_leaving_keeps_what_was_set():
+    app = opened("upside_down")
+    press(app, "Leave the exercise")
+    assert app.session_state["exercise"] is None
+    assert app.session_state["settings"].rule.value == "subtract_prior"
+
+
+def test_progress_is_a_file():
+    app = opened("upside_down")
+    predict(app)
+    press(app, "Check")
+    assert app.session_state["attempts"]["upside_down"].n_checks == 1
+
+
+@pytest.mark.parametrize("name", ["says_nothing", "count_a_thousand", "yours"])
+def test_each_kind_of_page_shows_its_exercise(name):
+    if not (ROOT / exercising.FOLDER_PAGES[exercise(name).page]).is_file():
+        pytest.skip("the page is not there yet")
+    assert f"Exercise {exercise(name).number}" in words(opened(name))
+
+
+def test_the_file_says_what_was_done():
+    made = json.loads(exercising.progress_json(()))
+    assert made == {"format": "occsim progress", "exercises": {}}
+    assert kept.Attempt().is_solved is False
