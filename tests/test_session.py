@@ -48,7 +48,7 @@ def session(monkeypatch):
         session_state = Kept()
         query_params = type("Query", (), {"to_dict": lambda self: {}})()
 
-    for module in (chosen, edits, state.replay, state.widgets, state.pairs):
+    for module in (chosen, edits, state.lens, state.replay, state.widgets, state.pairs):
         monkeypatch.setattr(module, "st", Streamlit)
     monkeypatch.setattr(
         chosen.compute,

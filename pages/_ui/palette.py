@@ -28,6 +28,14 @@ UNSEEN_HATCH = "#8f8f8f"
 HATCH_DARK = "#000000"
 HATCH_LIGHT = "#ffffff"
 
+# What one reading says of a pixel: empty; object, and it is wall; object, but only
+# hidden behind a wall. Wall that is not read, and words on any of them.
+READ_EMPTY = "#b9d7ef"
+READ_OBJECT = "#b5541c"
+READ_HIDDEN = "#f3b27a"
+WALL = "#444444"
+ON_PAPER = "#1a1a1a"
+
 # Marks over a drawing or a map.
 PAPER = "#ffffff"
 WALL_MASK = "#aa4499"

@@ -36,6 +36,11 @@ class Lesson:
 LESSONS = (
     Lesson("app.py", "Home", "What this is, and where to begin."),
     Lesson(
+        "pages/0_What_the_sensor_says.py",
+        "What the sensor says",
+        "One reading, pixel by pixel: what it says of a cell, and how readings add up.",
+    ),
+    Lesson(
         "pages/1_Build_a_map.py",
         "Build a map",
         "A robot drives through a building and maps it, reading by reading; the map "

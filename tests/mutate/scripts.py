@@ -11,6 +11,9 @@ WORDS = "tests/node/words.test.mjs"
 SCORES = "tests/node/scores.test.mjs"
 VERDICTS = "tests/node/verdicts.test.mjs"
 HEADERS = "tests/node/headers.test.mjs"
+LENS = "tests/node/lens.test.mjs"
+RAYS = "tests/test_lens.py::test_browser_and_library_agree_on_500_poses"
+SUMS = "tests/test_lens.py::test_readings_add_up_as_in_a_map"
 IN_BROWSER = "tests/browser/test_player.py::test_"
 PIXELS = "tests/browser/test_painted_pixels.py::test_"
 GREY = f"{PIXELS}each_cell_has_the_grey_of_its_belief"
@@ -319,6 +322,48 @@ _ROWS = (
         'declaresWall(column, logOdds) ? "no wall" : "wall"',
         f"{IN_BROWSER}hovering_shows_a_cells_numbers_on_both_pictures",
         "a cell whose class is shown the wrong way round",
+    ),
+    (
+        "lens/optics.js",
+        "firstHit(world, ray, edgeEps)",
+        "firstHit(world, ray, 0)",
+        RAYS,
+        "a ray that slips past the corner it grazes",
+    ),
+    (
+        "lens/optics.js",
+        "leaves < 1e-6",
+        "leaves < -1",
+        RAYS,
+        "a robot that touches a wall taken to stand in it",
+    ),
+    (
+        "lens/optics.js",
+        "surfaceDepth + edgeEps",
+        "surfaceDepth - edgeEps",
+        RAYS,
+        "a wall pixel exactly at the depth of the surface left out",
+    ),
+    (
+        "lens/adding.js",
+        'add("less", -l0, i + 1)',
+        'add("less", l0, i + 1)',
+        SUMS,
+        "a prior added again at every reading of the lens",
+    ),
+    (
+        "lens/adding.js",
+        "n === 2 && empty === 1 ? 2 : 1",
+        "1",
+        LENS,
+        "one order of two readings counted for both",
+    ),
+    (
+        "lens/document.js",
+        "((i + 0.5) * state.size) / size",
+        "(i * state.size) / size",
+        LENS,
+        "another place selected when the cells change size",
     ),
     (
         "shared/bytes.js",

@@ -39,6 +39,7 @@ from pages._ui.state.edits import (
     set_range_to_door,
     undo,
 )
+from pages._ui.state.lens import LENS_KEY, lens_document, take_from_lens
 from pages._ui.state.pairs import (
     choose_pair,
     keep_search,
@@ -68,6 +69,7 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "LENS_KEY",
     "OPENING",
     "OWN",
     "PLAYER_KEY",
@@ -97,6 +99,7 @@ __all__ = [
     "forget_player",
     "keep_search",
     "kept_search",
+    "lens_document",
     "link_notice",
     "message",
     "nearest_pair",
@@ -114,6 +117,7 @@ __all__ = [
     "set_range_to_door",
     "set_view",
     "settings",
+    "take_from_lens",
     "take_from_player",
     "undo",
     "value",

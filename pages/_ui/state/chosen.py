@@ -11,6 +11,7 @@ from occsim.building import Building
 from pages._ui import compute
 from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
+from pages._ui.state.lens import forget_lens, lens_in_link, open_lens, reset_lens
 from pages._ui.state.replay import (
     NEW_PLAYED,
     SHARED,
@@ -47,6 +48,7 @@ def prepare(path: str) -> None:
         state.path = path
         _open_page_drawing(path)
         forget_player()
+        forget_lens()
 
 
 def _open_page_drawing(path: str) -> None:
@@ -83,6 +85,7 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     go_to_place(query)
     if query.get("section", "") in SECTION_NUMBERS:
         state.views = {"section": SECTIONS[int(query["section"]) - 1]}
+    wrong += open_lens(query)
     if wrong:
         notices.append(
             f"The link gives no usable value for {', '.join(wrong)}; the defaults "
@@ -124,6 +127,7 @@ def reset_all() -> None:
     state.link_notice = state.link_notice[0], ""
     renew_widgets()
     open_players(building())
+    reset_lens()
 
 
 def renew_widgets() -> None:
@@ -142,7 +146,7 @@ def query() -> dict[str, str]:
     key = work_key()
     if key is not None:
         where["work"] = key
-    place = place_in_replay(building()) | _section()
+    place = place_in_replay(building()) | _section() | lens_in_link()
     return where | encode(settings(), defaults(name)) | place
 
 

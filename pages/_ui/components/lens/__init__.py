@@ -1,0 +1,121 @@
+"""The lens: one reading at pixel level, and how readings add up.
+
+One Streamlit component. Python sends the world and a document once; the lens casts the
+rays, counts and draws by itself and tells Python what the student chose at the end of
+each gesture. The scripts beside this file are plain functions, joined here in a fixed
+order into the single module that Streamlit expects.
+"""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from occsim import World, lens_world
+from occsim.sensor import (
+    EDGE_EPS,
+    OWN_PIXEL_EPS_PX,
+    P_FREE_MAX,
+    P_FREE_MIN,
+    SURFACE_DEPTH_PX,
+)
+from pages._ui import palette
+from pages._ui.components import component, keep_state
+from pages._ui.components.lens.document import (
+    CELL_SIZES,
+    FOV_DEG,
+    MAX_CHIPS,
+    P_FREE,
+    RANGE_PX,
+    LensDocument,
+    decode_commit,
+    to_texts,
+)
+
+FOLDER = Path(__file__).parent
+SCRIPTS = (
+    "optics.js",
+    "adding.js",
+    "document.js",
+    "stage.js",
+    "pointer.js",
+    "cell.js",
+    "line.js",
+    "counting.js",
+    "predictions.js",
+    "controls.js",
+    "lens.js",
+)
+COMPONENT = "sensor_lens"
+COLOURS = {
+    "paper": palette.PAPER,
+    "halo": palette.HALO,
+    "wall": palette.WALL,
+    "empty": palette.READ_EMPTY,
+    "object": palette.READ_OBJECT,
+    "hidden": palette.READ_HIDDEN,
+    "unsaid": palette.UNSEEN,
+    "ink": palette.ON_PAPER,
+    "robot": palette.ROBOT,
+    "sensor": palette.SENSOR,
+    "crosshair": palette.CROSSHAIR,
+    "evidenceFree": palette.EVIDENCE_FREE,
+    "evidenceWall": palette.EVIDENCE_WALL,
+    "prior": palette.GUIDE,
+}
+CONSTANTS = {
+    "edgeEps": EDGE_EPS,
+    "ownPixelEps": OWN_PIXEL_EPS_PX,
+    "surfaceDepth": SURFACE_DEPTH_PX,
+    "pFreeMin": P_FREE_MIN,
+    "pFreeMax": P_FREE_MAX,
+}
+
+
+def lens(
+    document: LensDocument,
+    *,
+    key: str,
+    on_commit: Callable[[], None] | None = None,
+) -> LensDocument:
+    """Show the lens; return what the student has chosen in it.
+
+    Parameters
+    ----------
+    document : LensDocument
+        The imposed document; the same one from run to run, see `map_player`.
+    key : str
+        Key of the component.
+    on_commit : callable, optional
+        Called before the run in which a commit arrives.
+
+    Returns
+    -------
+    LensDocument
+        The last commit on this rev, checked; before the first, the imposed document.
+    """
+    result = component(COMPONENT, FOLDER, SCRIPTS)(
+        key=key,
+        data=lens_data(document, key),
+        on_committed_change=on_commit or keep_state,
+    )
+    return decode_commit(result.get("committed"), document)
+
+
+def lens_data(document: LensDocument, key: str) -> str:
+    """Return what the browser gets, as JSON."""
+    header = {
+        "key": key,
+        "document": {"rev": document.rev, **to_texts(document)},
+        "world": picture_of(lens_world()),
+        "constants": CONSTANTS,
+        "limits": {"range": RANGE_PX, "fov": FOV_DEG, "prior": P_FREE},
+        "cellSizes": CELL_SIZES,
+        "maxChips": MAX_CHIPS,
+        "colours": COLOURS,
+    }
+    return json.dumps(header, allow_nan=False)
+
+
+def picture_of(world: World) -> list[str]:
+    """A world as rows of text: # is wall, a full stop is free."""
+    return ["".join(".#"[wall] for wall in row) for row in world.occupied.tolist()]
