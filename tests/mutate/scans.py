@@ -108,4 +108,32 @@ SCANS: tuple[Mutation, ...] = (
         ("tests/test_mapper.py",),
         "an archive is measured before it is unpacked",
     ),
+    Mutation(
+        "occsim/io/ros_map/files.py",
+        "values = np.where(occ < meta.free_thresh, FREE, between)",
+        "values = np.where(occ <= meta.free_thresh + 0.001, FREE, between)",
+        ("tests/test_ros_map.py",),
+        "unknown stays unknown at nav2's lower threshold",
+    ),
+    Mutation(
+        "occsim/io/ros_map/files.py",
+        "shade = (3.0 * shade + image.alpha) / 4.0",
+        "shade = shade * image.alpha",
+        ("tests/test_ros_map.py",),
+        "transparency counts as a fourth colour, as in nav2",
+    ),
+    Mutation(
+        "occsim/io/ros_map/files.py",
+        "if not path.is_relative_to(folder) or path == folder:",
+        "if path == folder:",
+        ("tests/test_ros_map.py",),
+        "a map's image lies in its folder",
+    ),
+    Mutation(
+        "occsim/io/metric.py",
+        "right, up = _turned(dx, dy, -frame.origin_yaw_rad)",
+        "right, up = _turned(dx, dy, frame.origin_yaw_rad)",
+        ("tests/test_ros_map.py",),
+        "a map's origin may be turned",
+    ),
 )
