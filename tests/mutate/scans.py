@@ -33,8 +33,8 @@ SCANS: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/scan/sectors.py",
-        "return np.where(np.isnan(ranges_px), OWN_RADIUS_PX, radii)",
-        "return radii",
+        "radii[np.isnan(ranges_px)] = OWN_RADIUS_PX",
+        "radii[np.isnan(ranges_px)] = nothing",
         ("tests/test_scan.py",),
         "an invalid beam says nothing",
     ),
@@ -135,5 +135,26 @@ SCANS: tuple[Mutation, ...] = (
         "right, up = _turned(dx, dy, frame.origin_yaw_rad)",
         ("tests/test_ros_map.py",),
         "a map's origin may be turned",
+    ),
+    Mutation(
+        "occsim/io/carmen.py",
+        "        -bearings[::-1],",
+        "        bearings,",
+        ("tests/test_carmen.py",),
+        "a log's beams run from right to left",
+    ),
+    Mutation(
+        "occsim/io/carmen.py",
+        "ranges[ranges >= most] = np.inf",
+        "ranges[ranges > most] = np.inf",
+        ("tests/test_carmen.py",),
+        "a reading at the greatest range is no return",
+    ),
+    Mutation(
+        "occsim/scan/sectors.py",
+        "radii = np.where(ranges_px <= view.reach, hit, view.reach)",
+        "radii = np.where(ranges_px <= view.reach, hit, nothing)",
+        ("tests/test_scan.py",),
+        "a hit beyond the usable range clears as far as it",
     ),
 )
