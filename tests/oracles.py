@@ -155,8 +155,9 @@ def classify_in_scan(pose, row, col, sectors, ranges, max_range_px, sensor):
         return None
     if math.isnan(z):
         return None
-    if z > reach + EPS:  # no return, or none that is used
+    if z == math.inf:  # no return
         return "empty" if sensor.clear_no_hit else None
+    # Also before a hit beyond the range that is used.
     if distance < z - EPS:
         return "empty"
     if sensor.behind_hit is BehindHit.OCCUPIED:

@@ -160,8 +160,17 @@ def test_only_the_surface_behind_a_hit_is_object_where_the_rest_is_unseen():
     assert picture(log, Sensor(range_px=9, behind_hit="occupied"), row) == ["..#####"]
 
 
-def test_a_hit_beyond_the_usable_range_is_no_return():
+@pytest.mark.parametrize("clear_no_hit", [True, False])
+def test_a_hit_beyond_the_usable_range_clears_as_far_as_it(clear_no_hit):
+    """The way to it is free, whatever a beam without return says."""
     log = ScanLog([[0.5, 0.5, 0.0]], [0.0], [[4.0]], 9.0)
+    row = Grid(height_px=1, width_px=7, cell_px=1)
+    sensor = Sensor(range_px=3, clear_no_hit=clear_no_hit)
+    assert picture(log, sensor, row) == ["....   "]
+
+
+def test_a_beam_without_return_clears_or_says_nothing():
+    log = ScanLog([[0.5, 0.5, 0.0]], [0.0], [[INF]], 9.0)
     row = Grid(height_px=1, width_px=7, cell_px=1)
     assert picture(log, Sensor(range_px=3), row) == ["....   "]
     assert picture(log, Sensor(range_px=3, clear_no_hit=False), row) == [".      "]

@@ -15,7 +15,7 @@ from occsim.trajectory import Trajectory
 class MetricFrame:
     """Where a drawing lies in a metric frame: x right, y up, headings to the left.
 
-    The convention of a ROS map file without rotation.
+    The convention of a ROS map file.
 
     Parameters
     ----------
@@ -25,6 +25,8 @@ class MetricFrame:
         Scale (a map file's ``resolution``), above 0.
     origin_x_m, origin_y_m : float, default 0
         Where the drawing's lower left corner lies, m (a map file's ``origin``).
+    origin_yaw_rad : float, default 0
+        By how much the drawing is turned to the left about that corner, rad.
 
     Raises
     ------
@@ -36,6 +38,7 @@ class MetricFrame:
     metres_per_px: float
     origin_x_m: float = 0.0
     origin_y_m: float = 0.0
+    origin_yaw_rad: float = 0.0
 
     def __post_init__(self) -> None:
         if self.height_px < 1:
@@ -44,11 +47,9 @@ class MetricFrame:
             raise ParameterError(
                 f"metres_per_px must be above 0 and finite; got {self.metres_per_px!r}"
             )
-        if not np.isfinite([self.origin_x_m, self.origin_y_m]).all():
-            raise ParameterError(
-                "the origin must be finite; "
-                f"got ({self.origin_x_m!r}, {self.origin_y_m!r})"
-            )
+        origin = self.origin_x_m, self.origin_y_m, self.origin_yaw_rad
+        if not np.isfinite(origin).all():
+            raise ParameterError(f"the origin must be finite; got {origin!r}")
 
 
 def poses_to_image(poses_m: npt.ArrayLike, frame: MetricFrame) -> Trajectory:
@@ -74,10 +75,13 @@ def poses_to_image(poses_m: npt.ArrayLike, frame: MetricFrame) -> Trajectory:
     """
     metric = Trajectory(poses=np.asarray(poses_m))
     x_m, y_m, yaw = metric.poses.T
-    with np.errstate(over="ignore"):  # overflow becomes infinity, refused below
-        x_px = (x_m - frame.origin_x_m) / frame.metres_per_px
-        y_px = frame.height_px - (y_m - frame.origin_y_m) / frame.metres_per_px
-    return Trajectory(poses=np.stack([x_px, y_px, wrap_angle(-yaw)], axis=1))
+    with np.errstate(over="ignore", invalid="ignore"):  # infinity is refused below
+        dx, dy = x_m - frame.origin_x_m, y_m - frame.origin_y_m
+        right, up = _turned(dx, dy, -frame.origin_yaw_rad)
+        x_px = right / frame.metres_per_px
+        y_px = frame.height_px - up / frame.metres_per_px
+    theta = wrap_angle(frame.origin_yaw_rad - yaw)
+    return Trajectory(poses=np.stack([x_px, y_px, theta], axis=1))
 
 
 def poses_to_metric(trajectory: Trajectory, frame: MetricFrame) -> FloatArray:
@@ -96,6 +100,16 @@ def poses_to_metric(trajectory: Trajectory, frame: MetricFrame) -> FloatArray:
         x, y, m, and heading, rad, from +x towards +y, in [-pi, pi).
     """
     x_px, y_px, theta = trajectory.poses.T
-    x_m = frame.origin_x_m + x_px * frame.metres_per_px
-    y_m = frame.origin_y_m + (frame.height_px - y_px) * frame.metres_per_px
-    return np.stack([x_m, y_m, wrap_angle(-theta)], axis=1)
+    right = x_px * frame.metres_per_px
+    up = (frame.height_px - y_px) * frame.metres_per_px
+    dx, dy = _turned(right, up, frame.origin_yaw_rad)
+    x_m, y_m = frame.origin_x_m + dx, frame.origin_y_m + dy
+    return np.stack([x_m, y_m, wrap_angle(frame.origin_yaw_rad - theta)], axis=1)
+
+
+def _turned(
+    x: FloatArray, y: FloatArray, yaw_rad: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return vectors turned to the left, exactly as they are for a turn of 0."""
+    cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
+    return x * cos - y * sin, x * sin + y * cos

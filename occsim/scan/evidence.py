@@ -53,7 +53,7 @@ def evidence_from_scans(
         S scans and the poses at which they enter the map.
     sensor : Sensor
         `range_px` is the usable range: nothing is said beyond it, and a hit beyond it
-        counts as no return. `behind_hit` and `clear_no_hit` as in `collect_evidence`.
+        clears as far as it. `behind_hit` and `clear_no_hit` as in `collect_evidence`.
         Where the beams look, the scans say themselves: `fov_rad` counts only for a
         scan of one beam, which stands for all of it.
     grid : Grid

@@ -184,8 +184,10 @@ def view_radii(ranges_px: FloatArray, sensor: Sensor, view: View) -> FloatArray:
 def _by_kind(
     ranges_px: FloatArray, view: View, hit: FloatArray, nothing: float
 ) -> FloatArray:
-    radii = np.where(ranges_px <= view.reach, hit, nothing)
-    return np.where(np.isnan(ranges_px), OWN_RADIUS_PX, radii)
+    radii = np.where(ranges_px <= view.reach, hit, view.reach)
+    radii[ranges_px == np.inf] = nothing
+    radii[np.isnan(ranges_px)] = OWN_RADIUS_PX
+    return radii
 
 
 def polygons(pieces: Pieces, radii: FloatArray, view: View) -> Polygons:

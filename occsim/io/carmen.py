@@ -1,0 +1,392 @@
+"""Logs of CARMEN: scans of laser range finders, and where they were taken.
+
+Lines of the kinds ``FLASER`` (``FLASER n r_1 .. r_n x y theta odom_x odom_y odom_theta
+time ..``), ``ROBOTLASER1`` and ``ODOM`` are read, all others passed over. In logs with
+corrected poses, as gmapping's ``gfs2log`` writes them, x, y and theta are corrected.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+
+from occsim._files import printable, read_source
+from occsim._types import FloatArray, ShortRepr
+from occsim.errors import ParameterError, RobotFileError, choice, real_number
+from occsim.grid import Grid
+from occsim.io.metric import MetricFrame, poses_to_image
+from occsim.scan import ScanLog
+from occsim.sensor import BehindHit, Sensor
+
+MAX_FILE_BYTES = 100_000_000
+MAX_LINE_BYTES = 200_000
+MAX_BEAMS = 5_000
+MAX_SCANS = 200_000
+MAX_RANGES = 20_000_000
+"""Most ranges of all scans together: 160 MB."""
+
+MAX_PIXELS = 16_000_000
+"""Largest map, px: 200 m x 200 m at 5 cm."""
+
+LMS_RANGE_M = 80.0
+"""A FLASER line does not say how far its range finder reaches. CARMEN's was a SICK
+LMS200, which reads 81.83 m and more where nothing returns; gmapping, too, takes 80."""
+
+MARGIN_M = 0.5
+"""Left free around all poses and hits."""
+
+
+class PoseSource(Enum):
+    """Which of a scan's two poses is taken."""
+
+    LASER = "laser"
+    """The range finder's own, corrected where the log is."""
+    ODOMETRY = "odometry"
+    """FLASER: what the odometry counted; ROBOTLASER1: the robot's."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CarmenLog(ShortRepr):
+    """The scans of a log on a map of its own.
+
+    Parameters
+    ----------
+    scan_log : ScanLog
+        S scans, in px of the map.
+    frame : MetricFrame
+        Where the map lies in the log's frame, in metres with y up.
+    width_px : int
+        Width of the map; its height is that of the frame.
+    times_s : ndarray of float64, shape (S,)
+        When each scan was taken, NaN where the log does not say.
+    odometry_m : ndarray of float64, shape (K, 3)
+        x, y, m, and heading, rad, of the ODOM lines.
+    usable_range_m : float
+        Range beyond which nothing is mapped, m.
+    """
+
+    scan_log: ScanLog
+    frame: MetricFrame
+    width_px: int
+    times_s: FloatArray
+    odometry_m: FloatArray
+    usable_range_m: float
+
+    def grid(self, cell_px: int = 1) -> Grid:
+        """Return the map's cells."""
+        return Grid(
+            height_px=self.frame.height_px, width_px=self.width_px, cell_px=cell_px
+        )
+
+    def sensor(self, behind_hit: BehindHit = BehindHit.UNSEEN) -> Sensor:
+        """Return how real scans are read, with gmapping's policies.
+
+        Parameters
+        ----------
+        behind_hit : BehindHit, default BehindHit.UNSEEN
+            What is said behind a hit.
+
+        Returns
+        -------
+        Sensor
+            Its range is the usable range; a beam without return says nothing: black
+            surfaces and mirrors give none either.
+        """
+        return Sensor(
+            range_px=self.usable_range_m / self.frame.metres_per_px,
+            behind_hit=behind_hit,
+            clear_no_hit=False,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Laser:
+    """How the beams of a line point and reach; bearings to the left, rad."""
+
+    n_beams: int
+    first_rad: float
+    step_rad: float
+    max_range_m: float
+
+    def bearings_rad(self) -> FloatArray:
+        beam = np.arange(self.n_beams, dtype=np.float64)
+        return self.first_rad + self.step_rad * beam
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """A scan as its line gives it."""
+
+    laser: _Laser
+    ranges_m: FloatArray
+    pose: FloatArray
+    odometry: FloatArray
+    time_s: float
+
+
+def load(
+    log: bytes | str | Path,
+    *,
+    metres_per_px: float = 0.05,
+    max_range_m: float | None = None,
+    usable_range_m: float | None = None,
+    poses: PoseSource = PoseSource.LASER,
+) -> CarmenLog:
+    """Return the scans of a CARMEN log.
+
+    Parameters
+    ----------
+    log : bytes, str or Path
+        The file's content, or where it is.
+    metres_per_px : float, default 0.05
+        Scale of the map, above 0.
+    max_range_m : float, optional
+        A reading at or beyond it is no return. By default what ROBOTLASER1 says, and
+        `LMS_RANGE_M` for FLASER.
+    usable_range_m : float, optional
+        Beyond it nothing is mapped; by default `max_range_m`. Hits beyond it count as
+        far as it, and do not enlarge the map.
+    poses : PoseSource, default PoseSource.LASER
+        Which of a scan's two poses is taken.
+
+    Returns
+    -------
+    CarmenLog
+        A reading of 0 or NaN is invalid.
+
+    Raises
+    ------
+    RobotFileError
+        Where the file is missing, too large or without scans; where a line is damaged,
+        which it names; where the map would have more than `MAX_PIXELS`.
+    ParameterError
+        Where a parameter lies outside its domain.
+
+    Notes
+    -----
+    Where a log has both kinds of scans, FLASER is read. FLASER lines do not say where
+    their beams point: half a turn, from the right to the left, in steps of 180 degrees
+    by n (n even) or n - 1 (odd); 401 beams are 100 degrees in steps of a quarter.
+
+    References
+    ----------
+    .. [1] CARMEN, the Carnegie Mellon robot navigation toolkit, log file format.
+
+    Examples
+    --------
+    >>> from occsim.io import carmen
+    >>> log = carmen.load(b"FLASER 3 1.0 2.0 81.83 4 5 0 4 5 0 7.5 host 7.5")
+    >>> log.scan_log.ranges_px.round(1), log.frame.metres_per_px
+    (array([[inf, 40., 20.]]), 0.05)
+    """
+    metres_per_px = _length("metres_per_px", metres_per_px)
+    source = choice("poses", poses, PoseSource)
+    data, name = read_source(
+        log,
+        what="the log",
+        needed="a log in CARMEN format",
+        max_bytes=MAX_FILE_BYTES,
+        error=RobotFileError,
+    )
+    lines, odometry = _parse(data, name)
+    laser = lines[0].laser
+    most = laser.max_range_m
+    if max_range_m is not None:
+        most = _length("max_range_m", max_range_m)
+    usable = most
+    if usable_range_m is not None:
+        usable = min(_length("usable_range_m", usable_range_m), most)
+    ranges = np.array([line.ranges_m for line in lines])
+    ranges[ranges >= most] = np.inf
+    ranges[ranges == 0.0] = np.nan
+    own = source is PoseSource.LASER
+    poses_m = np.array([line.pose if own else line.odometry for line in lines])
+    bearings = laser.bearings_rad()
+    corners = _corners(poses_m, bearings, np.where(ranges < most, ranges, 0.0), usable)
+    frame, width_px = _map_around(corners, metres_per_px, name)
+    # y down: bearings change their sign, and their order.
+    scan_log = ScanLog(
+        poses_to_image(poses_m, frame).poses,
+        -bearings[::-1],
+        ranges[:, ::-1] / metres_per_px,
+        most / metres_per_px,
+    )
+    times = np.array([line.time_s for line in lines])
+    return CarmenLog(scan_log, frame, width_px, times, odometry, usable)
+
+
+def _length(name: str, value: object) -> float:
+    length = real_number(name, value)
+    if not 0.0 < length < np.inf:
+        raise ParameterError(f"{name} must be above 0 and finite; got {length}")
+    return length
+
+
+def _parse(data: bytes, name: str) -> tuple[list[_Line], FloatArray]:
+    """Return the scans of one kind, and the poses of the odometry."""
+    kind = b"FLASER" if _has(data, b"FLASER") else b"ROBOTLASER1"
+    read = _flaser if kind == b"FLASER" else _robotlaser
+    scans, odometry, n_ranges = list[_Line](), list[FloatArray](), 0
+    for number, line in _lines(data):
+        where = f"{name}, line {number}"
+        if line.startswith(b"ODOM "):
+            odometry.append(_Words(line, where).numbers(3, "of the pose"))
+        elif line.startswith(kind + b" "):
+            scans.append(read(_Words(line, where)))
+            n_ranges += scans[-1].laser.n_beams
+            _check_alike(scans, n_ranges, where)
+    if not scans:
+        raise RobotFileError(
+            f"{printable(name)} has no line FLASER or ROBOTLASER1; a log in CARMEN "
+            "format is needed"
+        )
+    return scans, np.array(odometry).reshape(-1, 3)
+
+
+def _has(data: bytes, kind: bytes) -> bool:
+    return data.startswith(kind + b" ") or b"\n" + kind + b" " in data
+
+
+def _lines(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yield lines with their numbers, without a list of all of them."""
+    start, number = 0, 1
+    while start < len(data):
+        end = data.find(b"\n", start)
+        end = len(data) if end < 0 else end
+        yield number, data[start : min(end, start + MAX_LINE_BYTES + 1)]
+        start, number = end + 1, number + 1
+
+
+def _check_alike(scans: list[_Line], n_ranges: int, where: str) -> None:
+    first, last = scans[0].laser, scans[-1].laser
+    if vars(first) != vars(last):
+        raise RobotFileError(
+            f"{where}: all scans must come from one range finder; the first has "
+            f"{first.n_beams} beams, this one {last.n_beams}, or they point or reach "
+            "elsewhere"
+        )
+    if len(scans) > MAX_SCANS or n_ranges > MAX_RANGES:
+        raise RobotFileError(
+            f"{where}: a log may have {MAX_SCANS:,} scans and {MAX_RANGES:,} ranges"
+        )
+
+
+class _Words:
+    """The words of a line, read from left to right."""
+
+    def __init__(self, line: bytes, where: str) -> None:
+        if len(line) > MAX_LINE_BYTES:
+            raise RobotFileError(
+                f"{where}: a line may have {MAX_LINE_BYTES:,} bytes; this one has more"
+            )
+        self._words, self._next, self.where = line.split(), 1, where
+
+    def numbers(self, count: int, what: str, *, pose: bool = True) -> FloatArray:
+        """Return the next numbers; those of a pose must be finite."""
+        words = self._words[self._next : self._next + count]
+        self._next += count
+        if len(words) < count:
+            raise RobotFileError(
+                f"{self.where} is cut short: {count} numbers {what} are needed; got "
+                f"{len(words)}"
+            )
+        try:
+            values = np.array([float(word) for word in words])
+        except ValueError:
+            raise RobotFileError(
+                f"{self.where} is damaged: the numbers {what} include a word"
+            ) from None
+        if pose and not np.isfinite(values).all():
+            raise RobotFileError(f"{self.where}: the numbers {what} must be finite")
+        return values
+
+    def count(self, what: str, least: int = 0) -> int:
+        """Return the next number, which counts something."""
+        value = self.numbers(1, what)[0]
+        if value != int(value) or not least <= value <= MAX_BEAMS:
+            raise RobotFileError(
+                f"{self.where}: the number {what} must be whole, {least} to "
+                f"{MAX_BEAMS:,}; got {value:g}"
+            )
+        return int(value)
+
+    def ranges(self, count: int) -> FloatArray:
+        """Return the next ranges: NaN and infinity are allowed, less than 0 is not."""
+        ranges = self.numbers(count, "of ranges", pose=False)
+        if (ranges < 0.0).any():
+            raise RobotFileError(f"{self.where}: a range must not be negative")
+        return ranges
+
+    def time_s(self) -> float:
+        """Return the next number, or NaN where there is none."""
+        try:
+            return float(self._words[self._next])
+        except (IndexError, ValueError):
+            return np.nan
+
+
+def _flaser(words: _Words) -> _Line:
+    n = words.count("of beams", 1)
+    ranges = words.ranges(n)
+    pose, odometry = (words.numbers(3, what) for what in ("of the pose", "of odometry"))
+    step = np.pi / (n if n % 2 == 0 else max(n - 1, 1))
+    first = -0.5 * np.pi if n > 1 else 0.0
+    if n == 401:  # the LMS200's other field of view: 100 degrees
+        step, first = np.radians(0.25), np.radians(-50.0)
+    laser = _Laser(n, first, float(step), LMS_RANGE_M)
+    return _Line(laser, ranges, pose, odometry, words.time_s())
+
+
+def _robotlaser(words: _Words) -> _Line:
+    # Type, start, field of view, step, reach, accuracy, kind of remission.
+    _, first, _, step, most, _, _ = words.numbers(7, "of the range finder")
+    n = words.count("of beams", 1)
+    ranges = words.ranges(n)
+    words.numbers(words.count("of remissions"), "of remissions", pose=False)
+    pose, robot = (words.numbers(3, what) for what in ("of the laser", "of the robot"))
+    words.numbers(5, "of the robot's motion", pose=False)
+    if not (step > 0.0 and step * (n - 1) <= 2.0 * np.pi and 0.0 < most < 1e4):
+        raise RobotFileError(
+            f"{words.where}: beams must lie within one turn and reach more than 0 m; "
+            f"got steps of {step:g} rad and {most:g} m"
+        )
+    laser = _Laser(n, float(first), float(step), float(most))
+    return _Line(laser, ranges, pose, robot, words.time_s())
+
+
+def _corners(
+    poses_m: FloatArray, bearings: FloatArray, ranges_m: FloatArray, usable_m: float
+) -> FloatArray:
+    """Return the least and the greatest x and y of poses and hits, (2, 2), m."""
+    x, y, yaw = poses_m.T[:, :, None]
+    z = np.minimum(np.nan_to_num(ranges_m), usable_m)
+    ends = [x + z * np.cos(yaw + bearings), y + z * np.sin(yaw + bearings)]
+    return np.array(
+        [[end.min() - MARGIN_M for end in ends], [end.max() + MARGIN_M for end in ends]]
+    )
+
+
+def _map_around(
+    corners: FloatArray, metres_per_px: float, name: str
+) -> tuple[MetricFrame, int]:
+    """Return the frame of a map from corner to corner, and its width, px."""
+    # On whole pixels of the log's frame, so that two logs of a building fit.
+    with np.errstate(over="ignore", invalid="ignore"):  # too large, refused below
+        low, high = np.floor(corners[0] / metres_per_px), corners[1] / metres_per_px
+        width, height = (np.ceil(high) - low).tolist()
+    if not width * height <= MAX_PIXELS:
+        width_m, height_m = corners[1] - corners[0]
+        raise RobotFileError(
+            f"the map of {printable(name)} would span {width_m:.4g} m x {height_m:.4g} "
+            f"m; at {metres_per_px:g} m a px, {MAX_PIXELS:,} px are allowed"
+        )
+    x_m, y_m = (float(end) * metres_per_px for end in low)
+    frame = MetricFrame(
+        height_px=int(height),
+        metres_per_px=metres_per_px,
+        origin_x_m=x_m,
+        origin_y_m=y_m,
+    )
+    return frame, int(width)

@@ -1,0 +1,7 @@
+"""Maps of ROS map_server, a ``.yaml`` and an image, each way; no ROS is needed."""
+
+from occsim.io.ros_map.files import dump, load, save
+from occsim.io.ros_map.meta import MapMode
+from occsim.io.ros_map.ros_map import RosMap
+
+__all__ = ["MapMode", "RosMap", "dump", "load", "save"]
