@@ -280,8 +280,7 @@ def draw_flat(sheet: np.ndarray, left: int) -> None:
     for k in range(3):
         x = left + 200 + 110 * k
         cv2.rectangle(sheet, (x, 520), (x + 100, 596), 1, line)
-        for y in range(530, 590, 10):
-            cv2.line(sheet, (x + 8, y), (x + 92, y), 1, 2)
+        cv2.rectangle(sheet, (x + 8, 575), (x + 92, 598), 1, cv2.FILLED)
     for k in range(0, 281, 28):
         cv2.line(sheet, (left + 200, 840 + k), (left + 480, 840 + k), 1, 2)
         cv2.line(sheet, (left + 200 + k, 840), (left + 200 + k, 1120), 1, 2)

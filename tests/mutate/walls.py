@@ -83,6 +83,20 @@ WALLS: tuple[Mutation, ...] = (
         "a free-standing core is kept",
     ),
     Mutation(
+        "occsim/walls/groups.py",
+        "FRAME_MARGIN = 0.06",
+        "FRAME_MARGIN = 0.0",
+        TESTS,
+        "the frame of a sheet is no wall",
+    ),
+    Mutation(
+        "occsim/walls/hollow.py",
+        "thin[first] | thin[last]",
+        "thin[first] & thin[last]",
+        TESTS,
+        "furniture against a hollow wall hides one face only",
+    ),
+    Mutation(
         "occsim/walls/scale.py",
         "DOOR_WALLS = 4.0",
         "DOOR_WALLS = 8.0",
