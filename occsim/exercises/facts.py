@@ -56,7 +56,7 @@ GROUPS = {
     "answer": None,
 }
 """The facts of each group; None where the state says which there are."""
-LENS_CELL_PX, LENS_RANGE_PX = 4, 36.0
+LENS_RANGE_PX = 36.0
 MAX_LAPS = 20
 STUDY_CELLS_PX = (3, 5, 10)
 
@@ -263,7 +263,7 @@ class Facts:
             world,
             (x, y, math.radians(degrees)),
             self.state.sensor(LENS_RANGE_PX),
-            world.grid(LENS_CELL_PX),
+            world.grid(self.state.lens_cell_px),
         )
 
     def _lens(self, name: str) -> float:

@@ -46,6 +46,8 @@ class ExerciseState:
         x_px, y_px and heading in degrees of the robot of the lens.
     lens_cell : tuple of int or None
         Row and column of the cell pinned in the lens.
+    lens_cell_px : int
+        Side of the cells of the lens, px.
     moved : mapping
         How far each prior was moved while the cell was pinned, and ``"any"``.
     answers : mapping
@@ -76,6 +78,7 @@ class ExerciseState:
     cell: tuple[int, int] | None = None
     lens_pose: tuple[float, float, float] = (8.5, 10.5, 0.0)
     lens_cell: tuple[int, int] | None = None
+    lens_cell_px: int = 4
     moved: Numbers = field(default_factory=dict)
     answers: Numbers = field(default_factory=dict)
 
@@ -95,6 +98,7 @@ class ExerciseState:
             whole_number("step", self.step, 0, 1_000_000)
         for name in ("cell", "lens_cell", "lens_pose"):
             object.__setattr__(self, name, _numbers(name, getattr(self, name)))
+        whole_number("lens_cell_px", self.lens_cell_px, 1, 32)
         _ = self.prior, self.sensor(20.0)  # check their own values
 
     @property

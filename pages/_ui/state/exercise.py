@@ -8,6 +8,7 @@ import streamlit as st
 
 from occsim import Prior
 from occsim.exercises import Exercise, ExerciseState, Verdict, changed, judge
+from occsim.prior import PRIOR_SCALE
 from occsim.samples import sample_names
 from pages._ui.columns import FLAWS, Column
 from pages._ui.settings import TABLE, Settings, column_with, with_changes
@@ -18,12 +19,15 @@ from pages._ui.state.chosen import (
     defaults,
     renew_widgets,
 )
+from pages._ui.state.lens import LensDocument, set_lens
 from pages._ui.state.replay import (
     PLAYER_KEY,
     TWO_MAPS_KEY,
     forget_player,
 )
 
+LENS_PAGE = "what_the_sensor_says"
+OF_LENS = ("behind_hit", "clear_no_hit", "rule", "range_px", "fov_deg")
 OF_MAP = ("p_wall", "p_space", "uninformative", "rule", "behind_hit", "cell_px")
 """Settings that each of several maps has for itself."""
 
@@ -83,6 +87,8 @@ def open_exercise(exercise: Exercise) -> None:
     state.settings = with_changes(defaults(choice()), own)
     if exercise.page == "two_maps":
         state.settings = replace(state.settings, columns=_columns(exercise))
+    if exercise.page == LENS_PAGE:
+        set_lens(_lens(exercise.setup))
     key = _player_of(exercise)
     last = exercise.setup.step
     n_readings = len(building().trajectory)
@@ -129,6 +135,39 @@ def _column(given: Mapping[str, Any]) -> Column:
     return column_with(Column(), known)
 
 
+def _lens(setup: ExerciseState) -> LensDocument:
+    """The lens as an exercise opens it."""
+    x, y, degrees = setup.lens_pose
+    made = LensDocument(
+        x_px=x,
+        y_px=y,
+        heading_deg=degrees,
+        cell_px=setup.lens_cell_px,
+        behind_hit=setup.behind_hit,
+        clear_no_hit=setup.clear_no_hit,
+        fov_deg=round(setup.fov_deg),
+        p_free=setup.prior.p_free_wall,
+        rule=setup.rule,
+    )
+    if setup.range_px is not None:
+        made = replace(made, range_px=round(setup.range_px))
+    if setup.lens_cell is None:
+        return made
+    row, col = setup.lens_cell
+    return replace(made, row=row, col=col)
+
+
+def _from_lens(document: LensDocument) -> dict[str, Any]:
+    """What the student has set in the lens, by the names of an exercise."""
+    return {
+        **{name: getattr(document, name) for name in OF_LENS},
+        "p_wall": min(1.0, document.p_free / PRIOR_SCALE),
+        "lens_pose": [document.x_px, document.y_px, document.heading_deg],
+        "lens_cell": [document.row, document.col],
+        "lens_cell_px": document.cell_px,
+    }
+
+
 # --- Judging --------------------------------------------------------------------------
 
 
@@ -158,6 +197,8 @@ def student(exercise: Exercise) -> ExerciseState | None:
         "moved": attempt_of(exercise).moved,
         "answer": attempt_of(exercise).answers,
     }
+    if exercise.page == LENS_PAGE:
+        values |= _from_lens(state.lens_chosen)
     return changed(ExerciseState(), values)
 
 

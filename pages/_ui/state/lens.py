@@ -27,6 +27,14 @@ def lens_document() -> LensDocument:
     return state.lens_imposed
 
 
+def set_lens(document: LensDocument) -> None:
+    """Show other choices in the lens."""
+    st.session_state.lens_chosen = replace(
+        document, rev=st.session_state.lens_chosen.rev
+    )
+    forget_lens()
+
+
 def forget_lens() -> None:
     """Impose a new document at the next run."""
     st.session_state.lens_imposed = None
