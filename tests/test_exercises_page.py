@@ -78,7 +78,7 @@ def test_it_is_judged_by_what_the_student_has_set():
     settings = app.session_state["settings"]
     app.session_state["settings"] = compute.with_changes(settings, {"p_wall": 0.12})
     app.session_state["imposed"] = {}
-    next(one for one in app.number_input if "p_wall" in one.label).set_value(0.111)
+    next(one for one in app.number_input if "cancel" in one.label).set_value(0.111)
     app.run()
     press(app, "Check")
     assert "Solved." in words(app)
@@ -113,6 +113,22 @@ def test_an_exercise_of_the_lens_is_judged_by_the_lens():
     assert "Solved." in words(app)
 
 
+def test_the_link_names_the_exercise():
+    app = opened("upside_down")
+    again = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    again.query_params["exercise"] = app.session_state["exercise"]
+    again.switch_page("pages/1_Build_a_map.py").run()
+    assert "Exercise 18" in words(again)
+
+
+def test_a_link_with_an_unknown_exercise_opens_none():
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.query_params["exercise"] = "<b>nonsense</b>"
+    app.switch_page("pages/1_Build_a_map.py").run()
+    assert not app.exception
+    assert app.session_state["exercise"] is None
+
+
 def test_leaving_keeps_what_was_set():
     app = opened("upside_down")
     press(app, "Leave the exercise")
@@ -132,7 +148,30 @@ def test_each_kind_of_page_shows_its_exercise(name):
     assert f"Exercise {exercise(name).number}" in words(opened(name))
 
 
-def test_the_file_says_what_was_done():
-    made = json.loads(exercising.progress_json(()))
-    assert made == {"format": "occsim progress", "exercises": {}}
-    assert kept.Attempt().is_solved is False
+def test_what_the_browser_kept_is_read_again():
+    given = kept.Attempt(first="yes", answers={"p": 0.1}, n_checks=2, is_solved=True)
+    rows = {
+        "x": {
+            "solved": True,
+            "predicted": "yes",
+            "answers": {"p": 0.1},
+            "checks": 2,
+            "hints": 0,
+        }
+    }
+    text = json.dumps({"format": kept.FORMAT, "exercises": rows})
+    assert kept.attempts_in(text) == {"x": given}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        '{"format": "occsim progress", "exercises": {"x": 1}}',
+        "[" * 9999,
+    ],
+)
+def test_a_damaged_progress_is_none(text):
+    assert kept.attempts_in(text) == {}

@@ -1,6 +1,5 @@
 """The panel of an exercise on its page, and the list of all of them."""
 
-import json
 from functools import partial
 
 import streamlit as st
@@ -63,7 +62,7 @@ def _has_predicted(exercise: Exercise) -> bool:
     if question is None or attempt.first is not None:
         return True
     first = st.radio(
-        f"Predict. {question.text}",
+        f"Predict. {words.maths(question.text)}",
         question.options,
         index=None,
         **state.bind_view(f"predict_{exercise.id}", None),
@@ -82,31 +81,21 @@ def _questions(exercise: Exercise) -> None:
 
 
 def _ask(exercise: Exercise, question: Question) -> None:
-    key = f"answer_{exercise.id}_{question.name}"
+    # Never set by the program while it is on the page: that would take back what is
+    # being typed during a run.
+    key = kept.widget_of(exercise, question)
+    before = kept.answer_before(exercise, question)
+    label = words.maths(question.text)
     if question.options:
-        given = st.selectbox(
-            question.text,
+        st.selectbox(
+            label,
             question.options,
-            index=None,
+            index=question.options.index(before) if before else None,
             format_func=lambda option: RULE_WORDS.get(option, option),
-            **state.bind_view(key, None),
+            key=key,
         )
     else:
-        given = st.number_input(
-            question.text,
-            value=None,
-            step=0.001,
-            format="%g",
-            **state.bind_view(key, None),
-        )
-    answers = {
-        name: value
-        for name, value in kept.attempt_of(exercise).answers.items()
-        if name != question.name
-    }
-    if given is not None:
-        answers[question.name] = given
-    kept.keep_attempt(exercise, answers=answers)
+        st.number_input(label, value=before, step=0.001, format="%g", key=key)
 
 
 def _hints(exercise: Exercise) -> None:
@@ -164,7 +153,7 @@ def all_exercises() -> None:
         _row(exercise)
     st.download_button(
         "Progress as a file",
-        progress_json(found),
+        kept.progress_text(),
         file_name="progress.json",
         mime="application/json",
         on_click="ignore",
@@ -187,18 +176,6 @@ def _row(exercise: Exercise) -> None:
         st.switch_page(FOLDER_PAGES[exercise.page])
 
 
-def progress_json(found: tuple[Exercise, ...]) -> str:
-    """What was predicted, answered and solved, as a file to keep."""
-    rows = {
-        one.id: {
-            "solved": attempt.is_solved,
-            "predicted": attempt.first,
-            "answers": dict(attempt.answers),
-            "checks": attempt.n_checks,
-            "hints": attempt.n_hints,
-        }
-        for one in found
-        for attempt in [kept.attempt_of(one)]
-        if attempt.first is not None or attempt.n_checks
-    }
-    return json.dumps({"format": "occsim progress", "exercises": rows}, indent=2)
+def progress() -> str:
+    """What was done, for the browser to keep; empty where nothing was."""
+    return kept.progress_text() if kept.attempts() else ""

@@ -207,7 +207,13 @@ def _ending() -> None:
         vertical_alignment="center",
         key="ending",
     ):
-        address(state.query(), note=note, unsaved=not kept, key="address")
+        address(
+            state.query(),
+            note=note,
+            unsaved=not kept,
+            progress=exercising.progress(),
+            key="address",
+        )
         st.button("Reset all", on_click=state.reset_all)
 
 

@@ -1,5 +1,6 @@
 """A student's choices: the settings, the drawing, and the link that holds them."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -31,6 +32,7 @@ OPENING = "b"
 that the prior errs visibly and the Pareto front has several points."""
 OPENING_OF = {TWO_MAPS_PATH: "c"}
 """Pages that open with another drawing, if none was chosen."""
+EXERCISE_ID = re.compile(r"[a-z0-9_]{1,40}")
 GONE = (
     "The building of this link is no longer on this server: the server was "
     "restarted, or the building has expired. Open your project file on the page "
@@ -80,6 +82,8 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state.chosen = state.choice == OWN or "drawing" in query
     state.settings, more = decode(query, defaults(state.choice))
     wrong += more
+    asked = query.get("exercise", "")
+    state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
     state.played = dict(NEW_PLAYED)
     open_players(building())
     go_to_place(query)
@@ -147,7 +151,9 @@ def query() -> dict[str, str]:
     if key is not None:
         where["work"] = key
     place = place_in_replay(building()) | _section() | lens_in_link()
-    return where | encode(settings(), defaults(name)) | place
+    exercise = st.session_state.get("exercise")
+    open_one = {} if exercise is None else {"exercise": exercise}
+    return where | encode(settings(), defaults(name)) | place | open_one
 
 
 def _section() -> dict[str, str]:

@@ -1,5 +1,6 @@
 """The exercise that a student works on: what was predicted, answered and solved."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -7,7 +8,14 @@ from typing import Any
 import streamlit as st
 
 from occsim import Prior
-from occsim.exercises import Exercise, ExerciseState, Verdict, changed, judge
+from occsim.exercises import (
+    Exercise,
+    ExerciseState,
+    Question,
+    Verdict,
+    changed,
+    judge,
+)
 from occsim.prior import PRIOR_SCALE
 from occsim.samples import sample_names
 from pages._ui.columns import FLAWS, Column
@@ -52,8 +60,12 @@ class Attempt:
 
 
 def attempts() -> dict[str, Attempt]:
-    """Every attempt of this session, by the exercise's id."""
-    return st.session_state.setdefault("attempts", {})
+    """Every attempt, by the exercise's id; at first those that the browser kept."""
+    state = st.session_state
+    if not state.get("attempts"):
+        text = (state.get("address") or {}).get("kept")
+        state.attempts = attempts_in(text) if isinstance(text, str) else {}
+    return state.attempts
 
 
 def attempt_of(exercise: Exercise) -> Attempt:
@@ -171,6 +183,29 @@ def _from_lens(document: LensDocument) -> dict[str, Any]:
 # --- Judging --------------------------------------------------------------------------
 
 
+def widget_of(exercise: Exercise, question: Question) -> str:
+    """The key of the widget in which a question is answered."""
+    return f"answer_{exercise.id}_{question.name}"
+
+
+def answer_before(exercise: Exercise, question: Question) -> float | str | None:
+    """What was answered at the last check; None where it does not fit the question."""
+    given = attempt_of(exercise).answers.get(question.name)
+    if question.options:
+        return given if given in question.options else None
+    return None if isinstance(given, str) else given
+
+
+def answers(exercise: Exercise) -> dict[str, float | str]:
+    """What is answered now, on the page or before."""
+    asked = [*exercise.questions, *filter(None, [exercise.reason])]
+    given = {
+        one.name: st.session_state.get(widget_of(exercise, one), before.get(one.name))
+        for one in asked
+    }
+    return {name: value for name, value in given.items() if value is not None}
+
+
 def student(exercise: Exercise) -> ExerciseState | None:
     """What the student has set, pinned and answered; None on an own building."""
     if choice() not in sample_names():
@@ -195,7 +230,7 @@ def student(exercise: Exercise) -> ExerciseState | None:
         if pin is None
         else (int(pin[1] // cell_px), int(pin[0] // cell_px)),
         "moved": attempt_of(exercise).moved,
-        "answer": attempt_of(exercise).answers,
+        "answer": answers(exercise),
     }
     if exercise.page == LENS_PAGE:
         values |= _from_lens(state.lens_chosen)
@@ -253,7 +288,55 @@ def check(exercise: Exercise) -> None:
     keep_attempt(
         exercise,
         verdict=verdict,
+        answers=answers(exercise),
         stage=stage,
         n_checks=attempt.n_checks + 1,
         is_solved=attempt.is_solved or (verdict.is_solved and attempt.stage == last),
+    )
+
+
+# --- Progress -------------------------------------------------------------------------
+
+FORMAT = "occsim progress"
+MAX_PROGRESS = 100_000
+"""Most characters of a progress that is read."""
+
+
+def progress_text() -> str:
+    """Return what was predicted, answered and solved, as JSON."""
+    rows = {
+        name: {
+            "solved": one.is_solved,
+            "predicted": one.first,
+            "answers": dict(one.answers),
+            "checks": one.n_checks,
+            "hints": one.n_hints,
+        }
+        for name, one in attempts().items()
+        if one.first is not None or one.n_checks or one.n_hints
+    }
+    return json.dumps({"format": FORMAT, "exercises": rows})
+
+
+def attempts_in(text: str) -> dict[str, Attempt]:
+    """Return the attempts of a progress; what cannot be read is left out."""
+    try:
+        given = json.loads(text[:MAX_PROGRESS])
+        rows = given["exercises"] if given["format"] == FORMAT else {}
+        return {name: _attempt(row) for name, row in rows.items()}
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return {}
+
+
+def _attempt(row: Mapping[str, Any]) -> Attempt:
+    first = row["predicted"]
+    return Attempt(
+        first=first if isinstance(first, str) else None,
+        answers={
+            name: value if isinstance(value, str) else float(value)
+            for name, value in row["answers"].items()
+        },
+        n_hints=int(row["hints"]),
+        n_checks=int(row["checks"]),
+        is_solved=row["solved"] is True,
     )

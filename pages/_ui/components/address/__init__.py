@@ -9,7 +9,7 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from pages._ui.components import component
+from pages._ui.components import component, keep_state
 
 FOLDER = Path(__file__).parent
 SCRIPTS = ("address.js",)
@@ -22,6 +22,7 @@ def address(
     note: str = "",
     unsaved: bool = False,
     has_button: bool = True,
+    progress: str = "",
     key: str,
 ) -> None:
     """Keep the address line in step, and show the button that copies it.
@@ -36,6 +37,9 @@ def address(
         Whether leaving the page loses something that the link does not restore.
     has_button : bool
         Whether the button is shown.
+    progress : str
+        What the browser is to keep of the exercises. Where it is empty, the browser
+        commits what it kept before as "kept", once.
     key : str
         Key of the component.
     """
@@ -44,5 +48,8 @@ def address(
         "note": note,
         "unsaved": unsaved,
         "hasButton": has_button,
+        "progress": progress,
     }
-    component(COMPONENT, FOLDER, SCRIPTS)(key=key, data=json.dumps(data))
+    component(COMPONENT, FOLDER, SCRIPTS)(
+        key=key, data=json.dumps(data), on_kept_change=keep_state
+    )

@@ -4,14 +4,15 @@
 const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
-  const { data, parentElement } = component;
-  const { query, note, unsaved, hasButton } = JSON.parse(data);
+  const { data, parentElement, setStateValue } = component;
+  const { query, note, unsaved, hasButton, progress } = JSON.parse(data);
   const root = parentElement.querySelector(".address");
   const said = root.querySelector(".said");
   root.hidden = !hasButton;
   replaceAddress(query);
   heedLeaving(unsaved);
   heedConnection();
+  if (hasButton) keepProgress(progress, setStateValue);
   // On a telephone the navigation is one row to swipe.
   document.querySelector(".st-key-current_page")?.scrollIntoView({ block: "nearest", inline: "center" });
   root.querySelector("button").onclick = () => copy(said, note);
@@ -23,6 +24,23 @@ function replaceAddress(query) {
   if (address.href !== window.location.href) {
     // Keep the state that Streamlit's own navigation stores there.
     window.history.replaceState(window.history.state, "", address);
+  }
+}
+
+const PROGRESS = "occsim.progress";
+
+// The exercises solved outlive a reload and the server; a browser may forbid storage.
+function keepProgress(progress, send) {
+  try {
+    if (progress) {
+      window.localStorage.setItem(PROGRESS, progress);
+      return;
+    }
+    const kept = window.localStorage.getItem(PROGRESS);
+    if (kept && !window.occsimSentProgress) send("kept", kept);
+    window.occsimSentProgress = true;
+  } catch {
+    window.occsimSentProgress = true;
   }
 }
 
