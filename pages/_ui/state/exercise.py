@@ -200,7 +200,9 @@ def answers(exercise: Exercise) -> dict[str, float | str]:
     """What is answered now, on the page or before."""
     asked = [*exercise.questions, *filter(None, [exercise.reason])]
     given = {
-        one.name: st.session_state.get(widget_of(exercise, one), before.get(one.name))
+        one.name: st.session_state.get(
+            widget_of(exercise, one), answer_before(exercise, one)
+        )
         for one in asked
     }
     return {name: value for name, value in given.items() if value is not None}
