@@ -259,13 +259,18 @@ def test_what_a_drawing_is_worth_is_what_occsim_says(page, app_url):
         scrub(player, step)
         texts = player.locator(".worth").all_inner_texts()
         for text, rule in zip(texts, (ONCE, SUBTRACT), strict=True):
-            for name, measure in (("F2", Measure.F2), ("bits", Measure.BITS)):
-                n = of.worth_in_readings(Prior(), step, measure, rule)
-                said = re.search(rf"(\d+|more) readings[^,]*? \({name}", text)
-                if step == 0 and name == "F2":
-                    assert said is None
-                else:
-                    assert said[1] == ("more" if n is None else str(n))
+            bits, f2 = (
+                of.worth_in_readings(Prior(), step, measure, rule)
+                for measure in (Measure.BITS, Measure.F2)
+            )
+            knows, reaches = text.split("; ")
+            first = re.match(r"A blank map needs (\d+) |No blank map of this", knows)
+            assert first[1] == (None if bits is None else str(bits))
+            if step == 0:
+                assert reaches == "– for this F2 (looked at)"
+            else:
+                second = re.match(r"(\d+) reading|none reaches", reaches)
+                assert second[1] == (None if f2 is None else str(f2))
 
 
 def test_a_count_pins_the_next_such_cell_whose_ladders_end_at_the_maps(page, app_url):

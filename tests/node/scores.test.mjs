@@ -75,3 +75,28 @@ test("a map is worth the readings after which the blank map is as good", () => {
   assert.equal(worth(NaN, 1), null);
   assert.equal(worth(0.5 + 1e-13, 1), 2); // rounding decides nothing
 });
+
+// A map of one reading against a blank map that is as good after 1, after 3, or never.
+test("what a map is worth is said in words, with one reading and with several", () => {
+  const blank = { all: { bits: [1, 0.6, 0.5, 0.2] }, looked: { f2: [NaN, 0.5, 0.5, 0.9] } };
+  const words = (bits, f2) =>
+    player.worthWords({ all: { bits: [bits] }, looked: { f2: [f2] } }, blank, 0);
+  assert.equal(
+    words(0.3, 0.4),
+    "A blank map needs 3 readings to know as much (bits, all cells); " +
+      "1 reading is enough for this F2 (looked at)",
+  );
+  assert.equal(
+    words(0.6, 0.9),
+    "A blank map needs 1 reading to know as much (bits, all cells); " +
+      "3 readings are enough for this F2 (looked at)",
+  );
+  assert.equal(
+    words(0.1, 0.95),
+    "No blank map of this tour knows as much (bits, all cells); none reaches this F2 (looked at)",
+  );
+  assert.equal(
+    words(1, NaN),
+    "A blank map needs 0 readings to know as much (bits, all cells); \u2013 for this F2 (looked at)",
+  );
+});

@@ -77,12 +77,21 @@ function showTable(p, { cells, heads, worth }, { series, blank }) {
 
 // How many readings without a drawing are as good as the map is now.
 function worthWords(series, blank, step) {
-  const f2 = worthInReadings(blank.looked.f2, series.looked.f2, step, 1);
   const bits = worthInReadings(blank.all.bits, series.all.bits, step, -1);
-  const words = (n) => (n === null ? "more readings than this tour has" : `${n} readings`);
-  const inF2 = Number.isNaN(series.looked.f2[step]) ? "" : `${words(f2)} (F2, looked at), `;
-  return `Worth, without a drawing: ${inF2}${words(bits)} (bits, all cells)`;
+  const knows =
+    bits === null
+      ? "No blank map of this tour knows as much"
+      : `A blank map needs ${readingsWords(bits)} to know as much`;
+  return `${knows} (bits, all cells); ${f2Words(series, blank, step)} this F2 (looked at)`;
 }
+
+function f2Words(series, blank, step) {
+  if (Number.isNaN(series.looked.f2[step])) return `${DASH} for`;
+  const n = worthInReadings(blank.looked.f2, series.looked.f2, step, 1);
+  return n === null ? "none reaches" : `${readingsWords(n)} ${n === 1 ? "is" : "are"} enough for`;
+}
+
+const readingsWords = (n) => `${n} ${n === 1 ? "reading" : "readings"}`;
 
 // ---- ladders -----------------------------------------------------------------------------
 
