@@ -158,6 +158,12 @@ test("the second of two equal readings is worth as much in l, and what it is in 
   assert.match(words(0.1), /p by \+0\.400 each: .*happen to be equal/);
 });
 
+test("on the line a step of p is short in the middle and long at the ends", () => {
+  const steps = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8].map((p) => lens.logit(p + 0.1) - lens.logit(p));
+  const lengths = steps.map((step) => step.toFixed(3));
+  assert.deepEqual(lengths, ["0.811", "0.539", "0.442", "0.405", "0.405", "0.442", "0.539", "0.811"]);
+});
+
 test("the line reaches as far as its bars", () => {
   assert.equal(lens.reachOf([{ to: -3.9 }]), 4);
   assert.equal(lens.reachOf([{ to: 1 }, { to: -8.1 }]), 12);

@@ -61,11 +61,12 @@ function build(p, header) {
 
 // ---- to Python and to screen readers ---------------------------------------------------
 
-function commit(p, delay = 0) {
+// What was changed is heard: the selected cell, or the sum of the readings.
+function commit(p, delay = 0, heard = cellWords) {
   clearTimeout(p.commitTimer);
   p.commitTimer = setTimeout(() => {
     p.send("committed", textsOf(p.state));
-    setText(partOf(p.root, "said"), cellWords(p));
+    setText(partOf(p.root, "said"), heard(p));
   }, delay);
 }
 
