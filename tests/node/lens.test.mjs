@@ -78,6 +78,11 @@ test("a reading of a cell is one of three cases, the third kept within 0.1 to 0.
   assert.deepEqual([said(9, 0), said(0, 9), said(5, 11), said(0, 0)].map(lens.labelOf), ["empty", "object", "q 0.31", ""]);
 });
 
+test("the odds of a cell are shown as they are, not rounded to a wrong sum", () => {
+  assert.equal(lens.oddsWords(lens.saidOf(56, 8, CONSTANTS)), "ln(0.875 / 0.125) = +1.95");
+  assert.equal(lens.oddsWords(lens.saidOf(9, 0, CONSTANTS)), "ln(0.90 / 0.10) = +2.20");
+});
+
 // ---- readings add up; the numbers of exercise 4 -----------------------------------------
 
 const state = (rule, chips, prior = 0.18) => ({ rule, chips, prior });

@@ -96,8 +96,10 @@ function hatch() {
 function totalMark(total, x, width) {
   const { axis: y, height } = LINE_ROOM;
   const at = x(total);
-  const text = svg("text", { class: "total", x: clamp(at, 52, width - 52), y: 14 });
-  const parts = [["letter", 0, "p"], ["small", 3, "free"], ["value", -3, ` = ${probability(pFreeOf(total))}`]];
+  const value = probability(pFreeOf(total));
+  const half = 30 + 3.5 * value.length; // of the words, so that they stay on the page
+  const text = svg("text", { class: "total", x: clamp(at, half, width - half), y: 14 });
+  const parts = [["letter", 0, "p"], ["small", 3, "free"], ["value", -3, ` = ${value}`]];
   text.append(...parts.map(([name, dy, words]) => svg("tspan", { class: name, dy }, words)));
   return [
     svg("path", { class: "total-line", d: `M${at} 20V${height}` }),
