@@ -31,7 +31,12 @@ def part(lens, name):
 
 
 def inspect(lens):
-    return lens.evaluate("root => root.inspect()")
+    """What is chosen and read, once the frame that shows it has been drawn."""
+    return lens.evaluate(
+        """root => new Promise(resolve =>
+            requestAnimationFrame(() =>
+                requestAnimationFrame(() => resolve(root.inspect()))))"""
+    )
 
 
 def texts_of(lens):
@@ -117,8 +122,8 @@ def test_exercise_2_what_hides_behind_the_pillar(page, app_url):
     lens = open_lens(page, app_url, pose="14.5_6.5_0")
     assert part(lens, "n-hidden").inner_text() == "189 free pixels are called object"
     lens.get_by_label("not seen").check()
-    assert part(lens, "n-hidden").inner_text() == "0 free pixels are called object"
     assert expect_reading_of_occsim(lens).object.sum() == 7
+    assert part(lens, "n-hidden").inner_text() == "0 free pixels are called object"
 
 
 def test_all_of_it_by_keyboard(page, app_url):
@@ -146,6 +151,10 @@ def test_all_of_it_by_keyboard(page, app_url):
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Shift+ArrowUp")
     assert texts_of(lens)["prior"] == "0.29"
+    settled(page)
+    said = part(lens, "said").inner_text()
+    # ln(0.29 / 0.71) + ln 9 = 1.30.
+    assert said == "prior 0.29, 1 reading: log-odds +1.30, p free 0.786"
 
 
 def test_the_handle_turns_the_robot(page, app_url):
@@ -230,16 +239,32 @@ def test_a_reload_keeps_pose_cell_readings_and_prediction(page, app_url):
     assert len(page.url.split("?")[1]) < 160
 
 
+def test_the_page_stays_where_it_is_when_something_was_chosen(page, app_url):
+    page.set_viewport_size({"width": 390, "height": 600})
+    lens = open_lens(page, app_url)
+    part(lens, "read-object").scroll_into_view_if_needed()
+    page.wait_for_timeout(200)
+    before = part(lens, "read-object").bounding_box()["y"]
+    part(lens, "read-object").click()
+    settled(page)
+    assert part(lens, "read-object").bounding_box()["y"] == before
+    # The row of pages shows the current one all the same.
+    link = page.locator(".st-key-current_page").bounding_box()
+    assert 0 <= link["x"] < link["x"] + link["width"] <= 390
+
+
 def test_the_lens_is_as_it_was_left(page, app_url):
     lens = open_lens(page, app_url, pose="14.5_6.5_0")
     lens.get_by_label("not seen").check()
     settled(page)
+    part(lens, "read-object").click()
     page.get_by_role("link", name="Build a map").first.click()
     page.wait_for_selector(".player[data-ready='1']")
     page.get_by_role("link", name="What the sensor says").first.click()
     lens = ready(page)
     texts = texts_of(lens)
     assert (texts["pose"], texts["behind"]) == ("14.5_6.5_0", "unseen")
+    assert texts["chips"] == "e_o"
 
 
 def test_a_drag_is_drawn_within_a_frame(page, app_url):

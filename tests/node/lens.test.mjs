@@ -78,6 +78,11 @@ test("a reading of a cell is one of three cases, the third kept within 0.1 to 0.
   assert.deepEqual([said(9, 0), said(0, 9), said(5, 11), said(0, 0)].map(lens.labelOf), ["empty", "object", "q 0.31", ""]);
 });
 
+test("the odds of a cell are shown as they are, not rounded to a wrong sum", () => {
+  assert.equal(lens.oddsWords(lens.saidOf(56, 8, CONSTANTS)), "ln(0.875 / 0.125) = +1.95");
+  assert.equal(lens.oddsWords(lens.saidOf(9, 0, CONSTANTS)), "ln(0.90 / 0.10) = +2.20");
+});
+
 // ---- readings add up; the numbers of exercise 4 -----------------------------------------
 
 const state = (rule, chips, prior = 0.18) => ({ rule, chips, prior });
@@ -156,6 +161,12 @@ test("the second of two equal readings is worth as much in l, and what it is in 
   const words = (prior) => lens.secondWords({ state: state("prior_once", [], prior), constants: CONSTANTS });
   assert.match(words(0.18), /move l by \+2\.20 each, but p by \+0\.484 and then by \+0\.283/);
   assert.match(words(0.1), /p by \+0\.400 each: .*happen to be equal/);
+});
+
+test("on the line a step of p is short in the middle and long at the ends", () => {
+  const steps = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8].map((p) => lens.logit(p + 0.1) - lens.logit(p));
+  const lengths = steps.map((step) => step.toFixed(3));
+  assert.deepEqual(lengths, ["0.811", "0.539", "0.442", "0.405", "0.405", "0.442", "0.539", "0.811"]);
 });
 
 test("the line reaches as far as its bars", () => {

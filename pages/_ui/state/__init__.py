@@ -39,7 +39,7 @@ from pages._ui.state.edits import (
     set_range_to_door,
     undo,
 )
-from pages._ui.state.lens import LENS_KEY, lens_document, take_from_lens
+from pages._ui.state.lens import LENS_KEY, LENS_PATH, lens_document, take_from_lens
 from pages._ui.state.pairs import (
     choose_pair,
     keep_search,
@@ -70,6 +70,7 @@ from pages._ui.state.widgets import (
 
 __all__ = [
     "LENS_KEY",
+    "LENS_PATH",
     "OPENING",
     "OWN",
     "PLAYER_KEY",

@@ -13,9 +13,18 @@ export default function (component) {
   heedLeaving(unsaved);
   heedConnection();
   if (hasButton) keepProgress(progress, setStateValue);
-  // On a telephone the navigation is one row to swipe.
-  document.querySelector(".st-key-current_page")?.scrollIntoView({ block: "nearest", inline: "center" });
+  showCurrentPage();
   root.querySelector("button").onclick = () => copy(said, note);
+}
+
+// On a telephone the navigation is one row to swipe. Only the row may move: the student
+// may have scrolled the page to what the last commit came from.
+function showCurrentPage() {
+  const row = document.querySelector(".st-key-lessons");
+  const current = row?.querySelector(".st-key-current_page");
+  if (!current) return;
+  const [outer, inner] = [row.getBoundingClientRect(), current.getBoundingClientRect()];
+  row.scrollLeft += inner.left + inner.width / 2 - (outer.left + outer.width / 2);
 }
 
 function replaceAddress(query) {

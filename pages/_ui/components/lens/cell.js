@@ -21,8 +21,8 @@ function showCell(p) {
   put("in-view", `${cell.inView} of ${state.size ** 2}`, unsaidWords(cell));
   put("n-empty", String(cell.empty));
   put("n-object", String(cell.object));
-  put("q", isRead ? `${cell.empty} / ${cell.empty + cell.object} = ${cell.q.toFixed(2)}` : DASH);
-  put("p-free", isRead ? cell.pFree.toFixed(2) : DASH);
+  put("q", isRead ? `${cell.empty} / ${cell.empty + cell.object} = ${inHundredths(cell.q)}` : DASH);
+  put("p-free", isRead ? inHundredths(cell.pFree) : DASH);
   put("log-odds", isRead ? oddsWords(cell) : DASH);
   put("verdict", isRead ? HEARD[leaningOf(cell.logOdds)] : "not read: the map keeps what it holds");
   root.querySelectorAll("[data-case]").forEach((line) => {
@@ -40,7 +40,12 @@ function unsaidWords({ inView, empty, object }) {
 }
 
 function oddsWords({ pFree, logOdds }) {
-  return `ln(${pFree.toFixed(2)} / ${(1 - pFree).toFixed(2)}) = ${signedOrZero(logOdds)}`;
+  return `ln(${inHundredths(pFree)} / ${inHundredths(1 - pFree)}) = ${signedOrZero(logOdds)}`;
+}
+
+// Two decimals where they are exact, else three.
+function inHundredths(value) {
+  return value.toFixed(Math.abs(value - Number(value.toFixed(2))) < 1e-9 ? 2 : 3);
 }
 
 // A sign on what is not zero.

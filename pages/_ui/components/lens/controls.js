@@ -25,10 +25,14 @@ function buildControls(p) {
 function radio(p, name, value, label) {
   const input = element("input", { type: "radio", name, value });
   input.addEventListener("change", () => {
-    if (name === "rule") Object.assign(p.state, { rule: value });
-    else setSensor(p, name === "size" ? resized(p.state, Number(value)) : { [name]: value });
-    showAdding(p);
-    commit(p);
+    if (name === "rule") {
+      p.state.rule = value;
+      showAdding(p);
+      commit(p, 0, sumWords);
+    } else {
+      setSensor(p, name === "size" ? resized(p.state, Number(value)) : { [name]: value });
+      commit(p);
+    }
   });
   return element("label", {}, input, element("span", {}, label));
 }
@@ -66,13 +70,15 @@ function buildChips(p) {
     partOf(p.root, name).addEventListener("click", () => {
       p.state.chips = act();
       showAdding(p);
-      commit(p);
+      showCell(p);
+      commit(p, 0, sumWords);
     });
   }
 }
 
 // The readings in their order, in words.
-function showChips({ root, state }) {
+function showChips({ root, state, header }) {
   const words = state.chips.map((chip) => ({ e: "empty", o: "object" })[chip] ?? chip.replace(".", " : "));
-  setText(partOf(root, "chips"), words.length ? words.join(", ") : "none yet");
+  const most = words.length < header.maxChips ? "" : ` (${header.maxChips} at most)`;
+  setText(partOf(root, "chips"), words.length ? words.join(", ") + most : "none yet");
 }

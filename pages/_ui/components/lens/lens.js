@@ -17,9 +17,10 @@ export default function ({ data, parentElement, setStateValue }) {
 }
 
 function opened(root) {
-  const p = { root, canvas: root.querySelector("canvas"), header: null, state: null, hover: null };
+  const p = { root, canvas: root.querySelector("canvas"), header: null, state: null, hover: null, pending: null };
   listen(p);
   listenToPrior(p);
+  root.addEventListener("pointerleave", () => flush(p));
   p.observer = new ResizeObserver(() => resize(p));
   p.observer.observe(root);
   root.inspect = () => inspection(p);
@@ -61,12 +62,21 @@ function build(p, header) {
 
 // ---- to Python and to screen readers ---------------------------------------------------
 
-function commit(p, delay = 0) {
+// What was changed is heard: the selected cell, or the sum of the readings.
+function commit(p, delay = 0, heard = cellWords) {
   clearTimeout(p.commitTimer);
-  p.commitTimer = setTimeout(() => {
+  p.pending = () => {
+    p.pending = null;
     p.send("committed", textsOf(p.state));
-    setText(partOf(p.root, "said"), cellWords(p));
-  }, delay);
+    setText(partOf(p.root, "said"), heard(p));
+  };
+  p.commitTimer = setTimeout(() => p.pending?.(), delay);
+}
+
+// A pointer that leaves the lens may be about to leave the page.
+function flush(p) {
+  clearTimeout(p.commitTimer);
+  p.pending?.();
 }
 
 // ---- what is drawn again ---------------------------------------------------------------

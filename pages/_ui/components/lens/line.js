@@ -30,8 +30,8 @@ function showLine(p) {
   const x = (l) => side + ((l + reach) / (2 * reach)) * (width - 2 * side);
   p.line = { reach, x, width };
   const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" });
-  picture.setAttribute("aria-label", lineWords(p, bars));
-  picture.append(...axis(x, reach), ...rungs(bars, x), ...totalMark(bars.at(-1).to, x, width));
+  picture.setAttribute("aria-label", `Number line of log-odds. ${sumWords(p)}`);
+  picture.append(...axis(x, reach), ...rungs(bars, x, state.prior), ...totalMark(bars.at(-1).to, x, width));
   partOf(root, "picture").replaceChildren(picture);
   placePrior(p);
   showSum(p, bars);
@@ -60,15 +60,15 @@ function axis(x, reach) {
 }
 
 // One row a reading; if the prior is taken off, the row holds two bars.
-function rungs(bars, x) {
+function rungs(bars, x, prior) {
   const rows = bars.at(-1).reading + 1;
   const pitch = Math.min(BAR_MAX, (LINE_ROOM.height - LINE_ROOM.bars - 4) / rows);
   const isTwo = bars.some(({ kind }) => kind === "less");
   const zero = { class: "guide", d: `M${x(0)} ${LINE_ROOM.axis + 20}V${LINE_ROOM.height}` };
-  return [hatch(), svg("path", zero), ...bars.flatMap((bar) => rung(bar, x, pitch, isTwo))];
+  return [hatch(), svg("path", zero), ...bars.flatMap((bar) => rung(bar, x, { pitch, isTwo, prior }))];
 }
 
-function rung({ kind, from, to, reading }, x, pitch, isTwo) {
+function rung({ kind, from, to, reading }, x, { pitch, isTwo, prior }) {
   const full = pitch - Math.min(5, pitch / 4);
   const thick = isTwo && kind !== "prior" ? full / 2 : full;
   const y = LINE_ROOM.bars + reading * pitch + (kind === "less" ? thick : 0);
@@ -77,7 +77,7 @@ function rung({ kind, from, to, reading }, x, pitch, isTwo) {
   const bar = { class: `bar ${name}`, x: left, y, width: Math.max(1.5, right - left), height: thick };
   const parts = [svg("rect", bar), svg("path", { class: "end", d: `M${x(to)} ${y}v${thick}` })];
   if (kind !== "less") {
-    const label = kind === "prior" ? "prior" : String(reading);
+    const label = kind === "prior" ? `prior ${prior.toFixed(2)}` : String(reading);
     // On the side of the bar away from where it ends.
     const isBehind = to < from;
     const place = { class: `rung ${isBehind ? "behind" : "before"}`, x: isBehind ? right + 6 : left - 6 };
@@ -96,8 +96,10 @@ function hatch() {
 function totalMark(total, x, width) {
   const { axis: y, height } = LINE_ROOM;
   const at = x(total);
-  const text = svg("text", { class: "total", x: clamp(at, 52, width - 52), y: 14 });
-  const parts = [["letter", 0, "p"], ["small", 3, "free"], ["value", -3, ` = ${probability(pFreeOf(total))}`]];
+  const value = probability(pFreeOf(total));
+  const half = 30 + 3.5 * value.length; // of the words, so that they stay on the page
+  const text = svg("text", { class: "total", x: clamp(at, half, width - half), y: 14 });
+  const parts = [["letter", 0, "p"], ["small", 3, "free"], ["value", -3, ` = ${value}`]];
   text.append(...parts.map(([name, dy, words]) => svg("tspan", { class: name, dy }, words)));
   return [
     svg("path", { class: "total-line", d: `M${at} 20V${height}` }),
@@ -106,9 +108,11 @@ function totalMark(total, x, width) {
   ];
 }
 
-function lineWords({ state }, bars) {
-  const total = bars.at(-1).to;
-  return `Number line of log-odds. Prior ${state.prior.toFixed(2)}, ${state.chips.length} readings: log-odds ${signedOrZero(total)}, p free ${probability(pFreeOf(total))}`;
+function sumWords({ state, constants }) {
+  const total = totalOf(state, constants);
+  const n = state.chips.length;
+  const said = `log-odds ${signedOrZero(total)}, p free ${probability(pFreeOf(total))}`;
+  return `prior ${state.prior.toFixed(2)}, ${n} reading${n === 1 ? "" : "s"}: ${said}`;
 }
 
 // ---- the prior's marker: a slider whose steps are hundredths of p -------------------------
@@ -131,7 +135,7 @@ function setPrior(p, prior) {
 function priorKey(p, target, direction, isFar) {
   if (target !== partOf(p.root, "prior")) return false;
   setPrior(p, p.state.prior + direction * (isFar ? 0.1 : 0.01));
-  commit(p, COMMIT_DELAY);
+  commit(p, COMMIT_DELAY, sumWords);
   return true;
 }
 
@@ -150,7 +154,7 @@ function listenToPrior(p) {
     setPrior(p, pFreeOf(((at - side) / (width - 2 * side)) * 2 * reach - reach));
   });
   const end = () => {
-    if (isHeld) commit(p);
+    if (isHeld) commit(p, 0, sumWords);
     isHeld = false;
   };
   marker.addEventListener("pointerup", end);

@@ -48,8 +48,9 @@ function silentWords(p) {
   if (!silent.length) return "From here no cell that holds both says nothing: move or turn the robot until one does.";
   const c = silent[0];
   const place = `row ${Math.floor(c / cells.nCols)}, column ${c % cells.nCols}`;
-  const more = silent.length > 1 ? `, and ${silent.length - 1} more` : "";
-  return `It can: from here cell ${place}${more}. As many of its pixels are called empty, ${cells.empty[c]}, as object.`;
+  const more = silent.length > 1 ? `, as do ${silent.length - 1} more` : "";
+  const n = cells.empty[c];
+  return `It can: from here the cell in ${place} says nothing${more}. It has ${n} empty and ${n} object pixels.`;
 }
 
 // The first and the second of two equal readings that say empty, in p and in l.
