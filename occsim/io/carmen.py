@@ -382,7 +382,7 @@ def _map_around(
             f"the map of {printable(name)} would span {width_m:.4g} m x {height_m:.4g} "
             f"m; at {metres_per_px:g} m a px, {MAX_PIXELS:,} px are allowed"
         )
-    x_m, y_m = (float(end) * metres_per_px for end in low)
+    x_m, y_m = (round(float(end) * metres_per_px, 9) for end in low)
     frame = MetricFrame(
         height_px=int(height),
         metres_per_px=metres_per_px,

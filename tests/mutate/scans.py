@@ -157,4 +157,18 @@ SCANS: tuple[Mutation, ...] = (
         ("tests/test_scan.py",),
         "a hit beyond the usable range clears as far as it",
     ),
+    Mutation(
+        "occsim/scan/cell_model.py",
+        "    visits += hits\n",
+        "",
+        ("tests/test_hits_visits.py",),
+        "a beam visits the cell in which it ends",
+    ),
+    Mutation(
+        "occsim/scan/cell_model.py",
+        "return np.asarray(self.hits > threshold * self.visits)",
+        "return np.asarray(self.hits >= threshold * self.visits)",
+        ("tests/test_hits_visits.py",),
+        "gmapping's threshold must be exceeded",
+    ),
 )
