@@ -137,9 +137,9 @@ SCANS: tuple[Mutation, ...] = (
         "a map's origin may be turned",
     ),
     Mutation(
-        "occsim/io/carmen.py",
-        "        -bearings[::-1],",
-        "        bearings,",
+        "occsim/io/scans.py",
+        "        -metric.bearings_rad[::-1],",
+        "        metric.bearings_rad,",
         ("tests/test_carmen.py",),
         "a log's beams run from right to left",
     ),
