@@ -80,11 +80,15 @@ from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.samples.lens import lens_world
 from occsim.scan import (
+    RANGE_FINDERS,
+    HitsVisits,
     Mapper,
+    RangeFinder,
     Scan,
     ScanLog,
     ScanNoise,
     evidence_from_scans,
+    hits_visits,
     simulate_scans,
 )
 from occsim.sensor import BehindHit, Sensor
@@ -96,6 +100,7 @@ from occsim.world import World, truth_cells
 __version__ = "0.1.0"
 
 __all__ = [
+    "RANGE_FINDERS",
     "BehindHit",
     "Building",
     "Corrections",
@@ -108,6 +113,7 @@ __all__ = [
     "Generation",
     "Grid",
     "HeadingMode",
+    "HitsVisits",
     "LossSurface",
     "MapSettings",
     "Mapper",
@@ -122,6 +128,7 @@ __all__ = [
     "PriorMap",
     "PriorSurface",
     "PriorSweep",
+    "RangeFinder",
     "Reading",
     "Region",
     "Reliability",
@@ -158,6 +165,7 @@ __all__ = [
     "flawed_mask",
     "fuse",
     "good_region",
+    "hits_visits",
     "hypervolume",
     "interpolate",
     "interpolated_objective",

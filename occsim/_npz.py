@@ -94,7 +94,7 @@ def unpacked(
             }
     except _DAMAGE:
         raise error(
-            f"it is not an undamaged file of {what}, of at most {max_values:,} cells"
+            f"it is not an undamaged file of {what}, of at most {max_values:,} values"
         ) from None
 
 

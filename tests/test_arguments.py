@@ -216,6 +216,7 @@ GOOD = {
         "n_readings": 1,
     },
     "good_region": {"sweeps": [SWEEP], "fronts": [FRONT], "tolerance": 0.1},
+    "hits_visits": {"scan_log": SCANS, "sensor": Sensor(), "grid": WORLD.grid(2)},
     "hypervolume": {"precision": [0.5], "recall": [0.5], "ref": (5.0, 5.0)},
     "interpolate": {
         "sweep": SWEEP,

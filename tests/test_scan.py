@@ -274,6 +274,16 @@ def test_a_field_without_walls_is_exact_for_any_number_of_beams():
             assert readings(evidence_from_scans(log, sensor, grid)) == exact
 
 
+def test_the_number_of_beams_is_bounded():
+    world = World(np.zeros((5, 5), dtype=bool))
+    poses = Trajectory(np.zeros((50_000, 3)))
+    for wrong in (0, 1.5, 1001, True):
+        with pytest.raises(
+            ParameterError, match="n_beams must be a whole number, 1 to"
+        ):
+            simulate_scans(world, poses, Sensor(), wrong)
+
+
 def test_a_robot_in_a_wall_measures_nothing():
     world = World(np.ones((5, 5), dtype=bool))
     log = simulate_scans(world, Trajectory([[2.5, 2.5, 0.0]]), Sensor(), 3)

@@ -13,29 +13,17 @@ from pathlib import Path
 import numpy as np
 
 from occsim._files import printable, read_source
-from occsim._types import FloatArray, ShortRepr
-from occsim.errors import ParameterError, RobotFileError, choice, real_number
-from occsim.grid import Grid
-from occsim.io.metric import MetricFrame, poses_to_image
-from occsim.scan import ScanLog
-from occsim.sensor import BehindHit, Sensor
+from occsim._types import FloatArray
+from occsim.errors import OccsimError, RobotFileError, choice
+from occsim.io.scans import MAX_RANGES, MetricScans, checked_length, metric_scans
 
 MAX_FILE_BYTES = 100_000_000
 MAX_LINE_BYTES = 200_000
 MAX_BEAMS = 5_000
 MAX_SCANS = 200_000
-MAX_RANGES = 20_000_000
-"""Most ranges of all scans together: 160 MB."""
-
-MAX_PIXELS = 16_000_000
-"""Largest map, px: 200 m x 200 m at 5 cm."""
-
 LMS_RANGE_M = 80.0
 """A FLASER line does not say how far its range finder reaches. CARMEN's was a SICK
 LMS200, which reads 81.83 m and more where nothing returns; gmapping, too, takes 80."""
-
-MARGIN_M = 0.5
-"""Left free around all poses and hits."""
 
 
 class PoseSource(Enum):
@@ -48,57 +36,21 @@ class PoseSource(Enum):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CarmenLog(ShortRepr):
-    """The scans of a log on a map of its own.
+class CarmenLog(MetricScans):
+    """The scans of a log on a map of their own.
 
     Parameters
     ----------
-    scan_log : ScanLog
-        S scans, in px of the map.
-    frame : MetricFrame
-        Where the map lies in the log's frame, in metres with y up.
-    width_px : int
-        Width of the map; its height is that of the frame.
+    scan_log, frame, width_px, usable_range_m
+        As in `MetricScans`.
     times_s : ndarray of float64, shape (S,)
         When each scan was taken, NaN where the log does not say.
     odometry_m : ndarray of float64, shape (K, 3)
         x, y, m, and heading, rad, of the ODOM lines.
-    usable_range_m : float
-        Range beyond which nothing is mapped, m.
     """
 
-    scan_log: ScanLog
-    frame: MetricFrame
-    width_px: int
     times_s: FloatArray
     odometry_m: FloatArray
-    usable_range_m: float
-
-    def grid(self, cell_px: int = 1) -> Grid:
-        """Return the map's cells."""
-        return Grid(
-            height_px=self.frame.height_px, width_px=self.width_px, cell_px=cell_px
-        )
-
-    def sensor(self, behind_hit: BehindHit = BehindHit.UNSEEN) -> Sensor:
-        """Return how real scans are read, with gmapping's policies.
-
-        Parameters
-        ----------
-        behind_hit : BehindHit, default BehindHit.UNSEEN
-            What is said behind a hit.
-
-        Returns
-        -------
-        Sensor
-            Its range is the usable range; a beam without return says nothing: black
-            surfaces and mirrors give none either.
-        """
-        return Sensor(
-            range_px=self.usable_range_m / self.frame.metres_per_px,
-            behind_hit=behind_hit,
-            clear_no_hit=False,
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +112,7 @@ def load(
     ------
     RobotFileError
         Where the file is missing, too large or without scans; where a line is damaged,
-        which it names; where the map would have more than `MAX_PIXELS`.
+        which it names; where the map would be too large.
     ParameterError
         Where a parameter lies outside its domain.
 
@@ -181,8 +133,14 @@ def load(
     >>> log.scan_log.ranges_px.round(1), log.frame.metres_per_px
     (array([[inf, 40., 20.]]), 0.05)
     """
-    metres_per_px = _length("metres_per_px", metres_per_px)
     source = choice("poses", poses, PoseSource)
+    for option, value in (
+        ("metres_per_px", metres_per_px),
+        ("max_range_m", max_range_m),
+        ("usable_range_m", usable_range_m),
+    ):
+        if value is not None:
+            checked_length(option, value)
     data, name = read_source(
         log,
         what="the log",
@@ -192,36 +150,24 @@ def load(
     )
     lines, odometry = _parse(data, name)
     laser = lines[0].laser
-    most = laser.max_range_m
-    if max_range_m is not None:
-        most = _length("max_range_m", max_range_m)
-    usable = most
-    if usable_range_m is not None:
-        usable = min(_length("usable_range_m", usable_range_m), most)
+    most = laser.max_range_m if max_range_m is None else float(max_range_m)
     ranges = np.array([line.ranges_m for line in lines])
     ranges[ranges >= most] = np.inf
     ranges[ranges == 0.0] = np.nan
     own = source is PoseSource.LASER
-    poses_m = np.array([line.pose if own else line.odometry for line in lines])
-    bearings = laser.bearings_rad()
-    corners = _corners(poses_m, bearings, np.where(ranges < most, ranges, 0.0), usable)
-    frame, width_px = _map_around(corners, metres_per_px, name)
-    # y down: bearings change their sign, and their order.
-    scan_log = ScanLog(
-        poses_to_image(poses_m, frame).poses,
-        -bearings[::-1],
-        ranges[:, ::-1] / metres_per_px,
-        most / metres_per_px,
-    )
+    try:
+        found = metric_scans(
+            [line.pose if own else line.odometry for line in lines],
+            laser.bearings_rad(),
+            ranges,
+            most,
+            metres_per_px=metres_per_px,
+            usable_range_m=usable_range_m,
+        )
+    except OccsimError as error:
+        raise RobotFileError(f"{printable(name)}: {error}") from None
     times = np.array([line.time_s for line in lines])
-    return CarmenLog(scan_log, frame, width_px, times, odometry, usable)
-
-
-def _length(name: str, value: object) -> float:
-    length = real_number(name, value)
-    if not 0.0 < length < np.inf:
-        raise ParameterError(f"{name} must be above 0 and finite; got {length}")
-    return length
+    return CarmenLog(**vars(found), times_s=times, odometry_m=odometry)
 
 
 def _parse(data: bytes, name: str) -> tuple[list[_Line], FloatArray]:
@@ -354,39 +300,3 @@ def _robotlaser(words: _Words) -> _Line:
         )
     laser = _Laser(n, float(first), float(step), float(most))
     return _Line(laser, ranges, pose, robot, words.time_s())
-
-
-def _corners(
-    poses_m: FloatArray, bearings: FloatArray, ranges_m: FloatArray, usable_m: float
-) -> FloatArray:
-    """Return the least and the greatest x and y of poses and hits, (2, 2), m."""
-    x, y, yaw = poses_m.T[:, :, None]
-    z = np.minimum(np.nan_to_num(ranges_m), usable_m)
-    ends = [x + z * np.cos(yaw + bearings), y + z * np.sin(yaw + bearings)]
-    return np.array(
-        [[end.min() - MARGIN_M for end in ends], [end.max() + MARGIN_M for end in ends]]
-    )
-
-
-def _map_around(
-    corners: FloatArray, metres_per_px: float, name: str
-) -> tuple[MetricFrame, int]:
-    """Return the frame of a map from corner to corner, and its width, px."""
-    # On whole pixels of the log's frame, so that two logs of a building fit.
-    with np.errstate(over="ignore", invalid="ignore"):  # too large, refused below
-        low, high = np.floor(corners[0] / metres_per_px), corners[1] / metres_per_px
-        width, height = (np.ceil(high) - low).tolist()
-    if not width * height <= MAX_PIXELS:
-        width_m, height_m = corners[1] - corners[0]
-        raise RobotFileError(
-            f"the map of {printable(name)} would span {width_m:.4g} m x {height_m:.4g} "
-            f"m; at {metres_per_px:g} m a px, {MAX_PIXELS:,} px are allowed"
-        )
-    x_m, y_m = (float(end) * metres_per_px for end in low)
-    frame = MetricFrame(
-        height_px=int(height),
-        metres_per_px=metres_per_px,
-        origin_x_m=x_m,
-        origin_y_m=y_m,
-    )
-    return frame, int(width)

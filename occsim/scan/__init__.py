@@ -5,17 +5,23 @@ One path for both: a `ScanLog` becomes evidence as the exact readings of
 one for each pixel.
 """
 
+from occsim.scan.cell_model import HitsVisits, hits_visits
 from occsim.scan.evidence import evidence_from_scans
 from occsim.scan.log import Scan, ScanLog
 from occsim.scan.mapper import Mapper
 from occsim.scan.noise import ScanNoise
+from occsim.scan.range_finders import RANGE_FINDERS, RangeFinder
 from occsim.scan.simulate import simulate_scans
 
 __all__ = [
+    "RANGE_FINDERS",
+    "HitsVisits",
     "Mapper",
+    "RangeFinder",
     "Scan",
     "ScanLog",
     "ScanNoise",
     "evidence_from_scans",
+    "hits_visits",
     "simulate_scans",
 ]

@@ -24,6 +24,9 @@ from occsim.world import World
 MAX_BEAMS = 100_000
 """Most beams of a simulated scan."""
 
+MAX_RANGES = 50_000_000
+"""Most ranges of all scans together: 400 MB."""
+
 
 def simulate_scans(
     world: World,
@@ -44,8 +47,8 @@ def simulate_scans(
     sensor : Sensor
         Its reach and field of view.
     n_beams : int
-        Beams of each scan, 1 to `MAX_BEAMS`. They point at the middles of equal sectors
-        of the field of view.
+        Beams of each scan, 1 to `MAX_BEAMS`, and `MAX_RANGES` in all. They point at the
+        middles of equal sectors of the field of view.
     noise : ScanNoise, optional
         Errors of ranges and poses; none by default.
     rng : numpy.random.Generator, optional
@@ -84,7 +87,8 @@ def simulate_scans(
         ("sensor", sensor, Sensor),
     ):
         expect(name, value, kind)
-    n_beams = whole_number("n_beams", n_beams, 1, MAX_BEAMS)
+    most_beams = max(min(MAX_BEAMS, MAX_RANGES // len(trajectory)), 1)
+    n_beams = whole_number("n_beams", n_beams, 1, most_beams)
     bearings = ((np.arange(n_beams) + 0.5) / n_beams - 0.5) * sensor.fov_rad
     poses, most = trajectory.poses, sensor.range_px
     if noise is None:

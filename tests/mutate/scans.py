@@ -137,9 +137,9 @@ SCANS: tuple[Mutation, ...] = (
         "a map's origin may be turned",
     ),
     Mutation(
-        "occsim/io/carmen.py",
-        "        -bearings[::-1],",
-        "        bearings,",
+        "occsim/io/scans.py",
+        "        -metric.bearings_rad[::-1],",
+        "        metric.bearings_rad,",
         ("tests/test_carmen.py",),
         "a log's beams run from right to left",
     ),
@@ -156,5 +156,19 @@ SCANS: tuple[Mutation, ...] = (
         "radii = np.where(ranges_px <= view.reach, hit, nothing)",
         ("tests/test_scan.py",),
         "a hit beyond the usable range clears as far as it",
+    ),
+    Mutation(
+        "occsim/scan/cell_model.py",
+        "    visits += hits\n",
+        "",
+        ("tests/test_hits_visits.py",),
+        "a beam visits the cell in which it ends",
+    ),
+    Mutation(
+        "occsim/scan/cell_model.py",
+        "return np.asarray(self.hits > threshold * self.visits)",
+        "return np.asarray(self.hits >= threshold * self.visits)",
+        ("tests/test_hits_visits.py",),
+        "gmapping's threshold must be exceeded",
     ),
 )

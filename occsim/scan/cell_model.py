@@ -1,0 +1,194 @@
+"""gmapping's cell model: how often beams end in a cell, of how often they pass it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
+from occsim.errors import ParameterError, expect, real_number
+from occsim.grid import Grid
+from occsim.mapping import OccupancyMap
+from occsim.rays.ragged import ragged_ranges
+from occsim.scan.log import ScanLog
+from occsim.sensor import EDGE_EPS, LOG_ODDS_MAX, Sensor
+
+OCCUPIED_ABOVE = 0.25
+"""Share of hits above which gmapping publishes a cell as occupied."""
+
+CELLS_AT_ONCE = 1 << 21
+"""Most cells that the beams of a batch pass, save a single scan's: bounds memory."""
+
+FAR_CELLS = 1e6
+"""Ends of beams are cut to this many cells from the grid's corner: farther ones would
+overflow whole numbers."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class HitsVisits(ShortRepr):
+    """Counts of beams, cell by cell.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    hits : ndarray of int64, shape (R, C)
+        Beams that end in each cell.
+    visits : ndarray of int64, shape (R, C)
+        Beams that end in it or pass it.
+    """
+
+    grid: Grid
+    hits: IntArray
+    visits: IntArray
+
+    @property
+    def occupied_share(self) -> FloatArray:
+        """Hits by visits, ndarray of float64 of shape (R, C); NaN where unvisited."""
+        share = np.full(self.grid.shape, np.nan)
+        np.divide(self.hits, self.visits, out=share, where=self.visits > 0)
+        return share
+
+    def is_occupied(self, threshold: float = OCCUPIED_ABOVE) -> BoolArray:
+        """Return which cells are declared occupied.
+
+        Parameters
+        ----------
+        threshold : float, default OCCUPIED_ABOVE
+            Share of hits that must be exceeded, in [0, 1).
+
+        Returns
+        -------
+        ndarray of bool, shape (R, C)
+
+        Raises
+        ------
+        ParameterError
+            Where the threshold lies outside its domain.
+        """
+        threshold = real_number("threshold", threshold)
+        if not 0.0 <= threshold < 1.0:
+            raise ParameterError(f"threshold must lie in [0, 1); got {threshold}")
+        return np.asarray(self.hits > threshold * self.visits)
+
+    def declared(self, threshold: float = OCCUPIED_ABOVE) -> OccupancyMap:
+        """Return the map as gmapping publishes it: occupied, free, or unknown.
+
+        Parameters
+        ----------
+        threshold : float, default OCCUPIED_ABOVE
+            As in `is_occupied`.
+
+        Returns
+        -------
+        OccupancyMap
+            p_free is 0.1, 0.9 or one half, so that `score` can compare it with others;
+            what it says beyond the three classes is not gmapping's.
+        """
+        sign = np.where(self.is_occupied(threshold), -1.0, 1.0) * (self.visits > 0)
+        return OccupancyMap(self.grid, sign * LOG_ODDS_MAX, self.visits)
+
+
+def hits_visits(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> HitsVisits:
+    """Return how often beams end in each cell and pass it, as gmapping counts.
+
+    A beam without width passes the cells of a line from the robot's cell to that in
+    which it ends. It takes no prior: that is why a drawing cannot help it.
+
+    Parameters
+    ----------
+    scan_log : ScanLog
+        S scans.
+    sensor : Sensor
+        `range_px` is the usable range: a hit at or beyond it passes the cells as far as
+        it, and ends in none. gmapping skips beams without return, as `clear_no_hit`
+        False does; with True they pass the cells as far as the range.
+    grid : Grid
+        The cells; what lies outside does not count.
+
+    Returns
+    -------
+    HitsVisits
+
+    Raises
+    ------
+    TypeError
+        Where an argument is of another type.
+
+    Notes
+    -----
+    Lines are Bresenham's, half-way steps away from the robot. A range of 0 is skipped,
+    as gmapping does.
+
+    References
+    ----------
+    .. [1] G. Grisetti, C. Stachniss and W. Burgard, gmapping: `PointAccumulator` and
+       `ScanMatcher::registerScan`; published above 0.25 by slam_gmapping.
+
+    Examples
+    --------
+    >>> from occsim import Grid, ScanLog, Sensor, hits_visits
+    >>> grid = Grid(height_px=1, width_px=5, cell_px=1)
+    >>> log = ScanLog([[0.5, 0.5, 0.0]] * 2, [0.0], [[3.0], [2.0]], 20.0)
+    >>> found = hits_visits(log, Sensor(), grid)
+    >>> found.hits, found.visits
+    (array([[0, 0, 1, 1, 0]]), array([[2, 2, 2, 1, 0]]))
+    """
+    for name, value, kind in (
+        ("scan_log", scan_log, ScanLog),
+        ("sensor", sensor, Sensor),
+        ("grid", grid, Grid),
+    ):
+        expect(name, value, kind)
+    hits, visits = (np.zeros(grid.n_cells, dtype=np.int64) for _ in range(2))
+    for start, ends, is_hit in _beams(scan_log, sensor, grid):
+        visits += _counted(_passed(start, ends), grid)
+        hits += _counted(ends[:, is_hit], grid)
+    visits += hits
+    return HitsVisits(grid, hits.reshape(grid.shape), visits.reshape(grid.shape))
+
+
+def _beams(
+    scan_log: ScanLog, sensor: Sensor, grid: Grid
+) -> Iterator[tuple[IntArray, IntArray, BoolArray]]:
+    """Yield, batch by batch, rows and columns (2, N) of starts and ends, and hits."""
+    usable = min(sensor.range_px, scan_log.max_range_px)
+    across = int(min(usable / grid.cell_px, FAR_CELLS)) + 1
+    step = max(CELLS_AT_ONCE // (across * scan_log.n_beams), 1)
+    for first in range(0, scan_log.n_scans, step):
+        part = slice(first, first + step)
+        ranges = scan_log.ranges_px[part]
+        counts = np.isfinite(ranges) | ((ranges == np.inf) & sensor.clear_no_hit)
+        scan, beam = np.nonzero(counts & (ranges > 0.0))
+        # A wall's surface often lies between two cells: the beam ends in the one
+        # behind it.
+        z = np.minimum(ranges[scan, beam] + EDGE_EPS, usable)
+        x, y, theta = scan_log.poses[part][scan].T
+        bearing = theta + scan_log.bearings_rad[beam]
+        ends = y + z * np.sin(bearing), x + z * np.cos(bearing)
+        start, end = _cells(np.array([y, x]), grid), _cells(np.array(ends), grid)
+        yield start, end, np.asarray(ranges[scan, beam] < usable)
+
+
+def _cells(points_px: FloatArray, grid: Grid) -> IntArray:
+    cells = np.floor(points_px / grid.cell_px)
+    return np.clip(cells, -FAR_CELLS, FAR_CELLS).astype(np.int64)
+
+
+def _counted(cells: IntArray, grid: Grid) -> IntArray:
+    """Return how often each cell of the grid stands among rows and columns (2, T)."""
+    row, col = cells
+    inside = (row >= 0) & (col >= 0) & (row < grid.n_rows) & (col < grid.n_cols)
+    flat = row[inside] * grid.n_cols + col[inside]
+    return np.bincount(flat, minlength=grid.n_cells)
+
+
+def _passed(start: IntArray, end: IntArray) -> IntArray:
+    """Return rows and columns (2, T) of the cells of lines, but the last of each."""
+    way = end - start
+    length = np.abs(way).max(axis=0)
+    beam, step = ragged_ranges(np.zeros_like(length), length)
+    n = length[beam]
+    # The nearest whole number to step |way| / n.
+    off = (2 * step * np.abs(way)[:, beam] + n) // (2 * n)
+    return np.asarray(start[:, beam] + np.sign(way)[:, beam] * off)
