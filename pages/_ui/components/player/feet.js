@@ -57,11 +57,12 @@ function newTable(p) {
 }
 
 function showTables(p) {
-  for (const { table, column } of p.views) if (table) showTable(p, table, p.columns[column]);
+  for (const { table, column } of p.views) if (table) showTable(p, table, column);
 }
 
-function showTable(p, { cells, heads, worth }, { series, blank }) {
-  const { step } = p.state;
+function showTable(p, { cells, heads, worth }, column) {
+  const { step, columns: settings } = p.state;
+  const [{ series, blank }, setting] = [p.columns[column], settings[column]];
   const share = series.coverage[step];
   setText(heads.looked, `looked at (${percent(share).replace(" ", "\u00a0")})`);
   setText(heads.unseen, "not looked at");
@@ -72,16 +73,17 @@ function showTable(p, { cells, heads, worth }, { series, blank }) {
       setText(cells[`blank ${region} ${name}`], text(blank[region][name][step]));
     }
   }
-  setText(worth, worthWords(series, blank, step));
+  setText(worth, setting.uninformative ? "" : worthWords(series, blank, step));
 }
 
 // How many readings without a drawing are as good as the map is now.
 function worthWords(series, blank, step) {
   const f2 = worthInReadings(blank.looked.f2, series.looked.f2, step, 1);
   const bits = worthInReadings(blank.all.bits, series.all.bits, step, -1);
-  const words = (n) => (n === null ? "more readings than this tour has" : `${n} readings`);
+  const readings = (n) => (n === 1 ? "1 reading" : `${n} readings`);
+  const words = (n) => (n === null ? "never on this tour" : `after ${readings(n)}`);
   const inF2 = Number.isNaN(series.looked.f2[step]) ? "" : `${words(f2)} (F2, looked at), `;
-  return `Worth, without a drawing: ${inF2}${words(bits)} (bits, all cells)`;
+  return `As good without a drawing: ${inF2}${words(bits)} (bits, all cells)`;
 }
 
 // ---- ladders -----------------------------------------------------------------------------
