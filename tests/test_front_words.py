@@ -63,10 +63,23 @@ def test_along_a_longer_front_precision_falls_as_recall_rises(run):
 def test_the_drawings_negative_is_named_where_and_only_where_it_is_on_the_front(run):
     said = front_words.front_text(run)
     n = int(np.count_nonzero(run.front.p_wall > run.front.p_space))
+    n_constant = int(np.count_nonzero(run.front.p_wall == run.front.p_space))
     assert ("negative" in said) == (n > 0)
-    assert ("with the drawing: p_wall is not above p_space" in said) == (n == 0)
-    if 0 < n < len(run.front):
+    assert ("nothing of the drawing" in said) == (n_constant > 0)
+    assert ("with the drawing: p_wall is below p_space" in said) == (
+        n + n_constant == 0
+    )
+    if 1 < n < len(run.front):
         assert f"{n} of them have p_wall above p_space" in said
+
+
+def test_a_front_of_one_constant_prior_is_not_said_to_agree_with_the_drawing():
+    """Cells of 20 px, taken off at every reading: (1, 1), 0.9 in every cell."""
+    settings = Settings(cell_px=20, rule=UpdateRule.SUBTRACT_PRIOR)
+    run = compute.reference_run("b", settings)
+    assert fronts.pairs_of(run.front) == [(1.0, 1.0)]
+    said = front_words.front_text(run)
+    assert said.endswith("knows nothing of the drawing: p_wall equals p_space.")
 
 
 def test_the_sources_pair_is_compared_with_the_blank_map(run):
@@ -89,7 +102,7 @@ def test_taken_off_at_every_reading_the_sources_pair_is_below_the_blank_map(name
 
 def test_thinned_by_two_pixels_every_front_of_the_source_opens(name):
     """ "Thin walls by 2 px": under the source's rule the front then has 4 points or
-    more at each of its cell sizes, and more than before."""
+    more at each of its cell sizes, and at most 2 fewer than before."""
     for cell_px in (3, 5, 10):
         settings = Settings(cell_px=cell_px, rule=UpdateRule.SUBTRACT_PRIOR)
         found = compute.reference_run(name, settings)

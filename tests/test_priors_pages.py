@@ -24,8 +24,11 @@ from occsim.building import Building
 from occsim.imaging import load_drawing
 from occsim.prior import PRIOR_SCALE
 from occsim.priors import Elitism, near_front, recommend
+from occsim.study.published import SOURCE_CELLS_PX, published_maximum
+from occsim.world import wall_cells
 from pages._ui import compute, state
 from pages._ui.choices import (
+    CHOICES,
     Drawings,
     Exploring,
     Fineness,
@@ -33,11 +36,13 @@ from pages._ui.choices import (
     Handover,
     Objectives,
     Picture,
+    PriorDrawing,
     Surface,
 )
 from pages._ui.priors import (
     front_figures,
     fronts,
+    guiding,
     maps,
     reliability,
     search_figures,
@@ -234,6 +239,43 @@ def test_the_negative_of_a_drawing_is_handed_over_only_after_a_warning():
     assert downloads(app) == FILES
 
 
+def test_the_warning_says_what_a_negative_prior_is_for_under_its_rule():
+    """Shifted off its walls, the drawing misleads: the calibrated prior, counted once,
+    gives drawn walls more than the space between them, and both more than one half."""
+    app = open_with(BEST, shift_x_px=20, shift_y_px=-20)
+    wall, space = best_prior_run(app).mapped.calibrated
+    assert wall > space > 0.5
+    warning = "\n".join(said(app.warning))
+    assert "believes the opposite of what is drawn" in warning
+    assert "takes the drawing off" not in warning
+    app = open_with(BEST, handover=Handover.SUBTRACT)
+    assert "takes the drawing off at every reading" in "\n".join(said(app.warning))
+
+
+@pytest.mark.parametrize("handover", [Handover.CALIBRATED, Handover.SUBTRACT])
+def test_the_front_of_the_last_page_is_that_of_the_answers_rule(handover):
+    app = open_with(BEST, handover=handover)
+    subtract = handover is Handover.SUBTRACT
+    rule = UpdateRule.SUBTRACT_PRIOR if subtract else UpdateRule.PRIOR_ONCE
+    shown = texts(app)
+    assert f"{len(best_prior_run(app).under(rule).front)} points, exact" in shown
+    assert f"the answer to hand over: {CHOICES[rule].lower()}" in shown
+
+
+def test_what_repeats_the_sources_rule_is_called_a_reconstruction():
+    app = open_with(BEST)
+    assert "taken off at every reading (the source, as we reconstruct it)" in texts(app)
+
+
+def test_no_answer_is_said_to_be_certain():
+    """In d all cells of each class agree: the fewest bits lie at the end of a range."""
+    building = compute.sample("d")
+    run = compute.run(building, Settings(range_px=20))
+    wall, space, _ = run.mapped.best_in_bits(UpdateRule.PRIOR_ONCE, Region.ALL)
+    said = guiding.prior_text(Prior(p_wall=wall, p_space=space, scale=1.0))
+    assert said == "p_free is below 0.001 on wall cells and above 0.999 elsewhere."
+
+
 def best_prior_run(app):
     return compute.run(compute.sample(state.OPENING), app.session_state["settings"])
 
@@ -319,6 +361,55 @@ def test_answers_are_tried_on_other_drawings_and_other_tours():
     tours = [run.building.trajectory for run in places["other tours"]]
     assert all(len(tour) <= len(of.building.trajectory) for tour in tours)
     assert all(run.mapped.truth_cells.any() for run in places["other tours"])
+
+
+@pytest.mark.parametrize("source", [PriorDrawing.D, PriorDrawing.MIRRORED])
+def test_other_drawings_have_their_own_walls_and_the_same_errors(source):
+    """c, d and e have one size: the drawing of d is right for d and wrong for e."""
+    of = compute.run(compute.sample("c"), Settings(prior_drawing=source, range_px=20))
+    for run in compute.other_drawings(of):
+        own = run.building.wall_mask
+        mirrored = own[:, ::-1] if source is PriorDrawing.MIRRORED else own
+        assert (run.mapped.wall_cells == wall_cells(mirrored, run.mapped.grid)).all()
+
+
+def test_errors_of_the_other_drawings_are_told():
+    words = "with the same errors of the drawing", "were given to those drawings too"
+    for changes in ({}, {"prior_drawing": PriorDrawing.MIRRORED}):
+        shown = texts(open_with(BEST, **changes))
+        assert [one in shown for one in words] == [bool(changes)] * 2
+
+
+def test_a_drawing_that_lost_its_walls_to_errors_is_not_said_to_have_none():
+    sheet, gone = compute.sample("d"), Settings(missing_share=1.0, range_px=20)
+    # Without a ground truth the walls found serve as the world, and stay.
+    for building in (sheet, replace(sheet, truth=None)):
+        notice = compute.run(building, gone).notice
+        assert notice.startswith("With its errors the drawing has no wall")
+
+
+def test_the_study_says_what_the_sources_tables_show():
+    """ "recall peaks with p_space = 1 in 12 of 15 cases, precision with p_space from
+    0.3 to 0.6, and no pair has both"."""
+    n_at_one = 0
+    for cell_px in SOURCE_CELLS_PX:
+        for name in "abcde":
+            recall, precision = (
+                _printed_spans(published_maximum(objective, cell_px, name).pairs)
+                for objective in (Objective.RECALL, Objective.PRECISION)
+            )
+            n_at_one += recall[1] == [1.0, 1.0]
+            assert 0.3 <= precision[1][0] <= precision[1][1] <= 0.6
+            ends = zip(recall, precision, strict=True)
+            assert any(a[1] < b[0] or b[1] < a[0] for a, b in ends)
+    assert n_at_one == 12
+    assert "in 12 of 15 cases, precision" in texts(open_with(STUDY))
+
+
+def _printed_spans(pairs):
+    """Ends of p_wall and of p_space, as "(0.7:1, 1)" prints them."""
+    values = [[float(end) for end in v.split(":")] for v in pairs[1:-1].split(", ")]
+    return [[value[0], value[-1]] for value in values]
 
 
 def test_the_study_prints_both_tables_and_the_pattern():

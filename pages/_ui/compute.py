@@ -227,7 +227,7 @@ def calibrated(of: Run) -> Prior:
 
 def estimated(of: Run) -> Prior:
     """The calibrated prior as the reference drawings give it, this one left out."""
-    others = [run.mapped for run in _other_drawings(of)]
+    others = [run.mapped for run in other_drawings(of)]
     counted = [(other.wall_cells, other.truth_cells) for other in others]
     p_free_wall, p_free_space = estimated_prior(counted)
     return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
@@ -244,16 +244,27 @@ def transfer_runs(of: Run) -> dict[str, list[Run]]:
     tours = _other_tours(of.building.digest, of.settings.sensor, of.building)
     return {
         "this drawing, this tour": [of],
-        "other drawings": _other_drawings(of),
+        "other drawings": other_drawings(of),
         "other tours": [
             run(replace(of.building, trajectory=tour), of.settings) for tour in tours
         ],
     }
 
 
-def _other_drawings(of: Run) -> list[Run]:
-    names = [name for name in sample_names() if name != of.building.name]
-    return [reference_run(name, of.settings) for name in names]
+def other_drawings(of: Run) -> list[Run]:
+    """The reference drawings but a run's own, each with its own walls.
+
+    The errors of the run's drawing are in them too. Another building's drawing is not:
+    it would fit some of them, and be the right one of one.
+    """
+    settings, names = of.settings, set(sample_names())
+    if settings.prior_drawing.value in names:
+        settings = with_changes(settings, {"prior_drawing": PriorDrawing.OWN})
+    return [
+        reference_run(name, settings)
+        for name in sample_names()
+        if name != of.building.name
+    ]
 
 
 @shared("Planning other tours")

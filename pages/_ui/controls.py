@@ -171,14 +171,20 @@ def drawing_errors() -> None:
 
 
 THINNED = {"thickness_px": -2}
-"""What the source's detector probably did to its walls."""
+"""What the source's detector may have done to its walls: a hypothesis."""
+AS_IT_IS, THIN = "Drawing as it is", "Thin walls by 2 px"
+
+
+def thin_walls(has_errors: bool) -> str:
+    """Which button thins the walls; with errors it first takes these off."""
+    return f"*{AS_IT_IS}* and then *{THIN}*" if has_errors else f"*{THIN}*"
 
 
 def thinning() -> None:
     """Draw a button that thins the drawn walls by 2 px, or takes all errors off."""
     has_errors = compute.prior_mask(state.building(), state.settings()) is not None
     st.button(
-        "Drawing as it is" if has_errors else "Thin walls by 2 px",
+        AS_IT_IS if has_errors else THIN,
         on_click=state.change,
         kwargs=NO_ERRORS if has_errors else THINNED,
         help="Walls thinner than the building's: a hypothesis on how the source found "

@@ -115,7 +115,7 @@ class Run:
                 "No reading saw any cell, so the map is the prior and nothing else: "
                 "check the trajectory and the range of the sensor."
             )
-        if self.building.truth is None and not self.mapped.wall_cells.any():
+        if self.building.truth is None and not self.building.world.occupied.any():
             return (
                 "No wall was found in the drawing and no ground truth was given: there "
                 "is no wall to map, and precision and recall are undefined."
@@ -126,10 +126,10 @@ class Run:
                 "undefined, and no pair of priors is better than another."
             )
         if not self.mapped.wall_cells.any():
-            return (
-                "No wall was found in the drawing: every cell starts from p_space and "
-                "p_wall has no effect."
-            )
+            why = "With its errors the drawing has no wall"
+            if not self.has_errors:
+                why = "No wall was found in the drawing"
+            return f"{why}: every cell starts from p_space and p_wall has no effect."
         if not len(self.front):
             return "No pair of priors finds a wall: precision and recall have no front."
         return ""

@@ -48,6 +48,11 @@ test("what agrees is said once", () => {
     player.agreement(WORDS, [SETTING, withChanges({ cell_px: 1 })]),
     "Same building and tour: this drawing, 0.2, 0.9, once, as found, occupied.",
   );
+  // The second starts from one half.
+  assert.equal(
+    player.agreement(WORDS, [SETTING, withChanges({ uninformative: true })]),
+    "Same building and readings: once, as found, occupied, 3 px cells.",
+  );
 });
 
 test("choosing a word and reading it back gives the same word", () => {

@@ -31,7 +31,7 @@ QUESTIONS: Mapping[Handover, str] = {
     Handover.ONCE: "Which pair of the Pareto front has the highest F2 on the cells "
     "looked at?",
     Handover.SUBTRACT: "The same, with the drawing taken off at every reading (the "
-    "source).",
+    "source, as we reconstruct it).",
     Handover.CHOSEN: "The pair that you chose on this page or another.",
 }
 

@@ -47,7 +47,7 @@ def one_drawing(run: Run) -> None:
             _of_rule(one, found[i] if found else None)
     st.caption(scores.BITS)
     _ends(both)
-    explain()
+    explain(run.has_errors)
 
 
 def _chosen_maps(both: list[Run]) -> None:
@@ -210,13 +210,15 @@ def _ends(both: list[Run]) -> None:
         for name, pair in zip(names, ends, strict=False):
             title = f"{name}, {SHORT[one.settings.rule]}: {maps.pair_text(*pair)}"
             shown.append((title, one, Prior(p_wall=pair[0], p_space=pair[1])))
-    for column, (title, one, prior) in zip(st.columns(len(shown)), shown, strict=True):
+    # Without a front there is one map, which would be as wide as the page.
+    columns = st.columns(max(len(shown), 3))
+    for column, (title, one, prior) in zip(columns, shown, strict=False):
         with column:
             maps.map_of(one, prior, title, kind)
     st.caption(maps.LEGENDS[kind])
 
 
-def explain() -> None:
+def explain(has_errors: bool) -> None:
     """What to see, to predict and why."""
     see, tell, why = st.columns(3, gap="large")
     with see:
@@ -227,8 +229,8 @@ def explain() -> None:
         )
     with tell:
         st.markdown(
-            "**Predict**, then press *Thin walls by 2 px*. Which front gets more "
-            "points, and what does each point give up?"
+            f"**Predict**, then press {controls.thin_walls(has_errors)}. Which front "
+            "gets more points, and what does each point give up?"
         )
         with st.expander("And then?"):
             st.markdown(

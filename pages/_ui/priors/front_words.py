@@ -41,15 +41,22 @@ def _direction(pair: fronts.Pair) -> str:
             "But p_wall is above p_space: this prior is the drawing's negative, which "
             "calls drawn walls free rather than the space between them."
         )
-    return "It agrees with the drawing: p_wall is not above p_space."
+    if fronts.is_constant(pair):
+        return "But it knows nothing of the drawing: p_wall equals p_space."
+    return "It agrees with the drawing: p_wall is below p_space."
 
 
 def _negatives(pairs: list[fronts.Pair]) -> str:
-    n = sum(fronts.is_negative(pair) for pair in pairs)
-    if n == 0:
-        return "All agree with the drawing: p_wall is not above p_space."
-    which = "All" if n == len(pairs) else f"{n} of them"
-    return f"{which} have p_wall above p_space: the drawing's negative."
+    said = []
+    for is_so, words in (
+        (fronts.is_negative, "p_wall above p_space: the drawing's negative"),
+        (fronts.is_constant, "p_wall equal to p_space: nothing of the drawing"),
+    ):
+        n = sum(map(is_so, pairs))
+        if n:
+            which = "All" if n == len(pairs) else f"{n} of them"
+            said.append(f"{which} {'has' if which == '1 of them' else 'have'} {words}.")
+    return " ".join(said) or "All agree with the drawing: p_wall is below p_space."
 
 
 def recommended_text(run: Run, min_recall: float) -> str:

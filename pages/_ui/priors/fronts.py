@@ -24,6 +24,12 @@ def is_negative(pair: Pair) -> bool:
     return p_wall > p_space
 
 
+def is_constant(pair: Pair) -> bool:
+    """Whether a pair gives all cells the same prior, so that no wall is in it."""
+    p_wall, p_space = pair
+    return p_wall == p_space
+
+
 def distance(front: ParetoFront, scores: Scores) -> float:
     """By how much the nearest point of a front is better, in both scores at most.
 

@@ -1,5 +1,6 @@
 """The steps of the page "Best prior", and what a mapping step costs."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
 
 import streamlit as st
@@ -17,7 +18,7 @@ from occsim.priors import set_c
 from pages._ui import compute, controls, palette, shell, state, words
 from pages._ui.choices import CHOICES, FrontAxes, Handover, Picture
 from pages._ui.controls import CHART_CONFIG
-from pages._ui.priors import front_figures, reliability, scores
+from pages._ui.priors import front_figures, marks, reliability, scores
 from pages._ui.priors.answers import Answer, handed_over
 from pages._ui.priors.front_figures import Mark
 from pages._ui.runs import Run
@@ -76,22 +77,23 @@ def evidence(run: Run) -> None:
 
 
 def front(run: Run, answers: list[Answer]) -> None:
-    """Step 4: the best compromises of precision and recall."""
-    settings = state.settings()
-    head(4, "Pareto front of all priors")
+    """Step 4: the best compromises of precision and recall, under one rule."""
+    min_recall, chosen = state.settings().min_recall, handed_over(answers)
+    run = run.under(chosen.rule)
+    head(4, "Pareto front")
     figure = front_figures.front_figure(
-        run.front, FrontAxes.SCORES, _marks(run, answers), settings.min_recall
+        run.front, FrontAxes.SCORES, _marks(run, chosen), min_recall
     )
     st.plotly_chart(figure, config=CHART_CONFIG, key="path_front")
-    n, n_inside = len(run.front), len(set_c(run.front, settings.min_recall))
+    n, n_inside = len(run.front), len(set_c(run.front, min_recall))
     st.caption(
         f"{n} point{'' if n == 1 else 's'}, exact; {n_inside} with a recall above "
-        f"{settings.min_recall:.2f} (set C)."
+        f"{min_recall:.2f} (set C). The rule is that of the answer to hand over: "
+        f"{CHOICES[chosen.rule].lower()}."
     )
 
 
-def _marks(run: Run, answers: list[Answer]) -> list[Mark]:
-    chosen = handed_over(answers)
+def _marks(run: Run, chosen: Answer) -> list[Mark]:
     wanted = [("blank map", Prior.uninformative(), "square", palette.UNSEEN)]
     if chosen.prior is not None:
         wanted.append(("handed over", chosen.prior, "circle-open", palette.MARK))
@@ -131,12 +133,19 @@ def _estimate(run: Run) -> str:
     if run.building.truth is None:
         return (
             "Estimated from the reference drawings, which have a ground truth; this "
-            "building has none."
+            f"building has none.{_errors_of_others(run)}"
         )
     return (
         "Counted in this building's ground truth. Where there is none, the other "
         f"reference drawings estimate it: {prior_text(compute.estimated(run))}"
+        f"{_errors_of_others(run)}"
     )
+
+
+def _errors_of_others(run: Run) -> str:
+    if not any(other.has_errors for other in compute.other_drawings(run)):
+        return ""
+    return " The errors that are set were given to those drawings too."
 
 
 def scores_table(run: Run, answers: list[Answer]) -> str:
@@ -161,8 +170,8 @@ def with_blank(answers: list[Answer]) -> list[tuple[str, Answer]]:
 def prior_text(prior: Prior) -> str:
     """The probabilities of free that a prior starts from."""
     return (
-        f"p_free is {prior.p_free_wall:.3g} on wall cells and "
-        f"{prior.p_free_space:.3g} elsewhere."
+        f"p_free is {marks.shown(prior.p_free_wall)} on wall cells and "
+        f"{marks.shown(prior.p_free_space)} elsewhere."
     )
 
 
@@ -175,12 +184,14 @@ def is_negative(prior: Prior) -> bool:
 def transfer(run: Run, answers: list[Answer]) -> None:
     """Step 7: each answer on the other drawings, and on other tours."""
     st.markdown(transfer_table(run, answers))
+    errors = any(other.has_errors for other in compute.other_drawings(run))
+    same = ", with the same errors of the drawing" if errors else ""
     st.caption(
         "F2 of the cells looked at, and bits per cell over all cells (less is better). "
         "Other drawings: the mean over the reference drawings except the one shown, "
-        "each with its own walls and tour. Other tours: the mean over an automatic "
-        "tour of half as many readings at most and as many random poses, in this "
-        "building."
+        f"each with its own walls and tour{same}. Other tours: the mean over an "
+        "automatic tour of half as many readings at most and as many random poses, in "
+        "this building."
     )
 
 
@@ -222,7 +233,7 @@ def hand_over(run: Run, given: Answer) -> None:
         st.caption(
             f"{made.grid.n_rows} × {made.grid.n_cols} cells of {made.grid.cell_px} px."
         )
-        if not is_negative(prior) or _is_accepted():
+        if not is_negative(prior) or _is_accepted(given.rule):
             _downloads(run, given, made)
         _use_everywhere(prior)
         cost(run, prior)
@@ -231,13 +242,21 @@ def hand_over(run: Run, given: Answer) -> None:
         reliability.diagram(run, given)
 
 
-def _is_accepted() -> bool:
+OPPOSITE: Mapping[UpdateRule, str] = {
+    UpdateRule.PRIOR_ONCE: "A robot that counts it once believes the opposite of what "
+    "is drawn, which can help only where the drawing misleads.",
+    UpdateRule.SUBTRACT_PRIOR: "It was chosen for a robot that takes the drawing off "
+    "at every reading, which pushes a cell away from its prior from the second reading "
+    "on. A robot that counts the drawing once, as Bayes' rule asks, must not start "
+    "from it.",
+}
+"""What the negative of a drawing is for, by the rule of its map."""
+
+
+def _is_accepted(rule: UpdateRule) -> bool:
     st.warning(
-        "This prior map is the negative of the drawing: walls are called free and "
-        "free space is called wall. It scores well only where the drawing is taken "
-        "off at every reading, which pushes a cell away from its prior from the "
-        "second reading on. A robot that counts the drawing once, as Bayes' rule "
-        "asks, must not start from it."
+        "This prior map is the negative of the drawing: it gives drawn walls a higher "
+        f"probability of free than the space between them. {OPPOSITE[rule]}"
     )
     return st.checkbox(
         "I know that this map is the negative of the drawing; show the downloads.",

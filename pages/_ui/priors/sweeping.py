@@ -174,8 +174,8 @@ def explain(run: Run) -> None:
     """What to see, to predict and why, of the view that is shown."""
     st.markdown(f"**See.** {_see()}")
     st.markdown(
-        "**Predict**, then press *Thin walls by 2 px*. Under which rule does the area "
-        "within the line change more?"
+        f"**Predict**, then press {controls.thin_walls(run.has_errors)}. Under which "
+        "rule does the area within the line change more?"
     )
     if state.settings().surface is Surface.EXACT:
         st.markdown(

@@ -57,11 +57,12 @@ function newTable(p) {
 }
 
 function showTables(p) {
-  for (const { table, column } of p.views) if (table) showTable(p, table, p.columns[column]);
+  for (const { table, column } of p.views) if (table) showTable(p, table, column);
 }
 
-function showTable(p, { cells, heads, worth }, { series, blank }) {
-  const { step } = p.state;
+function showTable(p, { cells, heads, worth }, column) {
+  const { step, columns: settings } = p.state;
+  const [{ series, blank }, setting] = [p.columns[column], settings[column]];
   const share = series.coverage[step];
   setText(heads.looked, `looked at (${percent(share).replace(" ", "\u00a0")})`);
   setText(heads.unseen, "not looked at");
@@ -72,7 +73,7 @@ function showTable(p, { cells, heads, worth }, { series, blank }) {
       setText(cells[`blank ${region} ${name}`], text(blank[region][name][step]));
     }
   }
-  setText(worth, worthWords(series, blank, step));
+  setText(worth, setting.uninformative ? "" : worthWords(series, blank, step));
 }
 
 // How many readings without a drawing are as good as the map is now.

@@ -50,8 +50,11 @@ function wordLabel(words, setting, word) {
 
 // What all maps share, in words.
 function agreement(words, settings) {
-  const same = WORDS.filter((word) => !differs(settings, word));
-  const first = settings.find(({ uninformative }) => !uninformative) ?? settings[0];
+  const isBlank = ({ uninformative }) => uninformative;
+  // A map without a drawing shares no pair; of errors, only one with a drawing tells.
+  const isShared = (word) => !differs(settings, word) && !(word === "pair" && settings.some(isBlank));
+  const same = WORDS.filter(isShared);
+  const first = settings.find((setting) => !isBlank(setting)) ?? settings[0];
   const labels = same.map((word) => wordLabel(words, first, word));
   const readings = same.includes("behind_hit") && same.includes("cell_px") ? "readings" : "tour";
   return `Same building and ${readings}${labels.length ? `: ${labels.join(", ")}` : ""}.`;
