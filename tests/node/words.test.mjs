@@ -18,18 +18,6 @@ test("a probability near 0 or 1 is not shown as certain", () => {
   assert.equal(player.probability(0), "0.000");
 });
 
-test("what a map is worth is said in readings of a map without a drawing", () => {
-  const series = (f2, bits) => ({ looked: { f2 }, all: { bits } });
-  const blank = series([NaN, 0.5, 0.6], [1, 0.8, 0.7]);
-  const said = (map) => player.worthWords(map, blank, 1);
-  const start = "As good without a drawing:";
-  assert.equal(
-    said(series([NaN, 0.4], [0.3, 0.2])),
-    `${start} after 1 reading (F2, looked at), never on this tour (bits, all cells)`,
-  );
-  assert.equal(said(series([NaN, NaN], [1, 0.75])), `${start} after 2 readings (bits, all cells)`);
-});
-
 test("an undefined score is a dash", () => {
   assert.equal(player.percent(NaN), "\u2013");
   assert.equal(player.percent(0.8512), "85.1 %");
