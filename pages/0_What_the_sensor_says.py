@@ -7,5 +7,6 @@ from pages._ui.components.lens import lens
 
 with shell.page(state.LENS_PATH) as lesson:
     shell.heading(lesson)
-    state.take_from_lens(lens(state.lens_document(), key=state.LENS_KEY))
+    state.take_from_lens()
+    lens(state.lens_document(), key=state.LENS_KEY)
     st.caption(words.SOURCE)

@@ -59,6 +59,25 @@ def session(monkeypatch):
     return Streamlit.session_state
 
 
+def test_only_a_link_to_the_lens_speaks_of_it(session):
+    state.prepare(state.LENS_PATH)
+    session.lens_chosen = replace(session.lens_chosen, p_free=0.4)
+    assert state.query()["lens_prior"] == "0.4"
+    state.prepare(BUILD)
+    assert "lens_prior" not in state.query()
+    state.prepare(state.LENS_PATH)
+    assert state.query()["lens_prior"] == "0.4"
+
+
+def test_a_commit_of_the_lens_counts_before_its_page_is_drawn(session):
+    state.prepare(state.LENS_PATH)
+    rev = state.lens_document().rev
+    session.lens = {"committed": {"rev": rev, "pose": "8.5_28.5_0"}}
+    assert state.take_from_lens().y_px == 28.5
+    session.lens = {"committed": {"rev": rev - 1, "pose": "8.5_4.5_0"}}
+    assert state.take_from_lens().y_px == 10.5
+
+
 SAMPLES = {}
 
 

@@ -118,6 +118,20 @@ def test_exercise_1_a_reading_that_says_nothing_is_found_by_hand(page, app_url):
     assert said == "cell 6, 9: 8 empty, 8 object, says nothing"
 
 
+def test_exercise_1_is_judged_by_what_is_on_the_screen(page, app_url):
+    """The click on Check follows the last choice at once."""
+    page.goto(f"{app_url}/Exercises")
+    page.get_by_role("button", name="Open", exact=True).first.click()
+    lens = ready(page)
+    settled(page)
+    page.get_by_text("yes", exact=True).first.click()
+    settled(page)
+    drag(page, lens, (8.5, 16.5), (8.5, 28.5))
+    click_cell(page, lens, 6, 9)
+    page.get_by_role("button", name="Check").click()
+    page.get_by_text("Solved. You predicted: yes.").wait_for()
+
+
 def test_exercise_2_what_hides_behind_the_pillar(page, app_url):
     lens = open_lens(page, app_url, pose="14.5_6.5_0")
     assert part(lens, "n-hidden").inner_text() == "189 free pixels are called object"

@@ -27,7 +27,7 @@ from pages._ui.state.chosen import (
     defaults,
     renew_widgets,
 )
-from pages._ui.state.lens import LensDocument, set_lens
+from pages._ui.state.lens import LensDocument, set_lens, take_from_lens
 from pages._ui.state.replay import (
     PLAYER_KEY,
     TWO_MAPS_KEY,
@@ -235,7 +235,7 @@ def student(exercise: Exercise) -> ExerciseState | None:
         "answer": answers(exercise),
     }
     if exercise.page == LENS_PAGE:
-        values |= _from_lens(state.lens_chosen)
+        values |= _from_lens(take_from_lens())
     return changed(ExerciseState(), values)
 
 

@@ -8,6 +8,7 @@ import streamlit as st
 from pages._ui.components.lens.document import (
     OPENING,
     LensDocument,
+    decode_commit,
     link_texts,
     with_texts,
 )
@@ -40,9 +41,16 @@ def forget_lens() -> None:
     st.session_state.lens_imposed = None
 
 
-def take_from_lens(document: LensDocument) -> None:
-    """Store the student's choices in the lens, without sending them back."""
-    st.session_state.lens_chosen = document
+def take_from_lens() -> LensDocument:
+    """Store the student's choices in the lens, without sending them back.
+
+    Callbacks that judge them call it as well: they come before the page's own part, in
+    the run in which the last commit arrives.
+    """
+    state = st.session_state
+    commit = (state.get(LENS_KEY) or {}).get("committed")
+    state.lens_chosen = decode_commit(commit, lens_document())
+    return state.lens_chosen
 
 
 def open_lens(query: Mapping[str, str]) -> list[str]:
@@ -62,10 +70,11 @@ def reset_lens() -> None:
 
 
 def lens_in_link() -> dict[str, str]:
-    """What a link says of the lens; nothing where it is as it opens."""
-    return {
-        PREFIX + n: text for n, text in link_texts(st.session_state.lens_chosen).items()
-    }
+    """What a link to the lens says of it; nothing where it is as it opens."""
+    if st.session_state.get("path") != LENS_PATH:
+        return {}
+    texts = link_texts(st.session_state.lens_chosen)
+    return {PREFIX + name: text for name, text in texts.items()}
 
 
 def _ours(query: Mapping[str, str]) -> list[tuple[str, str]]:

@@ -7,7 +7,6 @@ order into the single module that Streamlit expects.
 """
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 from occsim import World, lens_world
@@ -27,7 +26,6 @@ from pages._ui.components.lens.document import (
     P_FREE,
     RANGE_PX,
     LensDocument,
-    decode_commit,
     to_texts,
 )
 
@@ -71,34 +69,19 @@ CONSTANTS = {
 }
 
 
-def lens(
-    document: LensDocument,
-    *,
-    key: str,
-    on_commit: Callable[[], None] | None = None,
-) -> LensDocument:
-    """Show the lens; return what the student has chosen in it.
+def lens(document: LensDocument, *, key: str) -> None:
+    """Show the lens; `decode_commit` reads what it commits.
 
     Parameters
     ----------
     document : LensDocument
         The imposed document; the same one from run to run, see `map_player`.
     key : str
-        Key of the component.
-    on_commit : callable, optional
-        Called before the run in which a commit arrives.
-
-    Returns
-    -------
-    LensDocument
-        The last commit on this rev, checked; before the first, the imposed document.
+        Key of the component: the last commit is its state "committed".
     """
-    result = component(COMPONENT, FOLDER, SCRIPTS)(
-        key=key,
-        data=lens_data(document, key),
-        on_committed_change=on_commit or keep_state,
+    component(COMPONENT, FOLDER, SCRIPTS)(
+        key=key, data=lens_data(document, key), on_committed_change=keep_state
     )
-    return decode_commit(result.get("committed"), document)
 
 
 def lens_data(document: LensDocument, key: str) -> str:
