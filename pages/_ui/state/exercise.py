@@ -32,8 +32,10 @@ from pages._ui.state.replay import (
     PLAYER_KEY,
     TWO_MAPS_KEY,
     forget_player,
+    take_from_player,
 )
 
+PLAYER_PAGES = "build_a_map", "two_maps"
 LENS_PAGE = "what_the_sensor_says"
 OF_LENS = ("behind_hit", "clear_no_hit", "rule", "range_px", "fov_deg")
 OF_MAP = ("p_wall", "p_space", "uninformative", "rule", "behind_hit", "cell_px")
@@ -212,9 +214,13 @@ def student(exercise: Exercise) -> ExerciseState | None:
     """What the student has set, pinned and answered; None on an own building."""
     if choice() not in sample_names():
         return None
+    key = _player_of(exercise)
+    if exercise.page in PLAYER_PAGES:
+        # A commit that came with this click is not in the settings yet.
+        take_from_player(key)
     state = st.session_state
     settings: Settings = state.settings
-    played = state.played[_player_of(exercise)]
+    played = state.played[key]
     values = _values(settings, exercise)
     cell_px = values["cell_px"]
     pin = played.pin_px
