@@ -79,7 +79,8 @@ def _words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "Fewer, on all five reference drawings. The wall cells that it misses "
+                "Fewer, on all five reference drawings as they open, in cells of 3 px. "
+                "The wall cells that it misses "
                 "lie across an edge: part of the cell is space, and the robot sees "
                 "mostly that part. Where the robot has not looked, a map without a "
                 "drawing finds no wall at all."
