@@ -65,6 +65,7 @@ with shell.page("pages/3_Two_maps.py") as lesson:
     if state.message():
         shell.say_error(state.message())
     uploads.pose_notice()
+    shell.truth_notice()
     key = state.TWO_MAPS_KEY
     state.take_from_player(key)
     state.fit_columns()
