@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages._ui import compute, controls, replays, shell, state, uploads, words
+from pages._ui import controls, replays, shell, state, uploads, words
 from pages._ui.components.player import map_player
 
 EQUATIONS = r"""
@@ -53,13 +53,7 @@ def _notices() -> None:
             "There is no wall to map: the ground truth has none, or none was given "
             "and none was found in the drawing. Precision and recall are undefined."
         )
-    elif building.truth is None:
-        errors = compute.prior_mask(building, state.settings()) is not None
-        so = "has only the errors that are set" if errors else "is right everywhere"
-        st.info(
-            "No ground truth was given: the walls detected in the drawing serve as "
-            f"the world, so the prior {so}."
-        )
+    shell.truth_notice()
 
 
 def _words() -> None:
@@ -79,7 +73,8 @@ def _words() -> None:
         )
         with st.expander("And then?"):
             st.markdown(
-                "Fewer, on all five reference drawings. The wall cells that it misses "
+                "Fewer, on all five reference drawings as they open, in cells of 3 px. "
+                "The wall cells that it misses "
                 "lie across an edge: part of the cell is space, and the robot sees "
                 "mostly that part. Where the robot has not looked, a map without a "
                 "drawing finds no wall at all."

@@ -39,15 +39,16 @@ def _words() -> None:
         )
     with predict:
         st.markdown(
-            "**Predict.** With the right drawing counted once, the robot finds more of "
-            "the walls that it looks at than without one. What if the same drawing is "
-            "taken off at every reading?"
+            "**Predict.** With the right drawing counted once, in cells of 3 px, the "
+            "robot finds more of the walls that it looks at than without one. What if "
+            "the same drawing is taken off at every reading?"
         )
         with st.expander("And then?"):
             st.markdown(
                 "It finds fewer walls than a robot without a drawing, on all five "
-                "reference drawings. Where the two rules judge a looked-at cell "
-                "differently, counting once is right at least nine times in ten."
+                "reference drawings as they open. Where the two rules judge a "
+                "looked-at cell differently, counting once is right at least nine "
+                "times in ten."
             )
     with why:
         st.markdown(
@@ -64,6 +65,7 @@ with shell.page("pages/3_Two_maps.py") as lesson:
     if state.message():
         shell.say_error(state.message())
     uploads.pose_notice()
+    shell.truth_notice()
     key = state.TWO_MAPS_KEY
     state.take_from_player(key)
     state.fit_columns()

@@ -34,6 +34,7 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
     run = compute.run(state.building(), state.settings())
     if run.notice:
         st.warning(run.notice)
+    shell.truth_notice()
     if state.settings().drawings is Drawings.ALL:
         sweeping.all_drawings()
     else:

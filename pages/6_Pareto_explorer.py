@@ -30,6 +30,7 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
     run = compute.run(state.building(), state.settings())
     if run.notice:
         st.warning(run.notice)
+    shell.truth_notice()
     views = {
         Exploring.ONE: exploring.one_drawing,
         Exploring.SEARCH: searching.search,

@@ -16,6 +16,7 @@ with shell.page("pages/8_Study.py") as lesson:
             controls.slider("truth_share")
             controls.slider("min_recall")
 
+    shell.truth_notice()
     cases = studying.run_all()
     studying.findings(cases)
     studying.tables(cases)

@@ -297,16 +297,19 @@ def test_a_name_cannot_lead_out_of_the_folder(tmp_path):
 
 def test_a_drawing_that_cannot_be_used_does_not_end_the_study(folder, tmp_path, capsys):
     (folder / "bad.png").write_bytes(b"no image")
+    (folder / "attic.png").write_bytes(sheet(room((80, 100))))
     (folder / "empty.png").write_bytes(b"")
     (folder / "shed_trajectory.csv").write_text("a,b\n1,two\n")
     out = tmp_path / "out"
     command = ["study", str(folder), "--cell", "20", "--out", str(out)]
     assert main(command) == 0
     printed = capsys.readouterr()
-    assert "2 of 5 drawings gave a result at every cell size." in printed.out
+    assert "3 of 6 drawings gave a result at every cell size." in printed.out
     coverage = json.loads((out / "coverage.json").read_text(encoding="utf-8"))
     reasons = {one["drawing"]: one["reason"] for one in coverage["failed"]}
     assert set(reasons) == {"bad", "empty", "shed"}
+    assert coverage["without_ground_truth"] == 1  # the attic
+    assert "Without a ground truth: 1 of them." in printed.out
     assert all("\n" not in reason for reason in reasons.values())
     assert all(f"{name}: {why}" in printed.out for name, why in reasons.items())
     # What failed is tried again, and only that.

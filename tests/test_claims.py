@@ -406,7 +406,9 @@ def test_the_command_writes_counts_cases_and_versions(tmp_path, capsys):
 
 
 def test_the_text_shows_the_source_and_each_departure(cases):
-    first = claims_text(tally(judged(cases))).splitlines()[0].split("  ")
+    text = claims_text(tally(judged(cases)))
+    assert "as we reconstruct them; its update rule" in text
+    first = text.splitlines()[0].split("  ")
     titles = [word.strip() for word in first if word.strip()]
     assert titles == [
         "source",

@@ -476,6 +476,27 @@ def of_one_sheet(page, settings, **parts):
     return app
 
 
+def test_every_page_with_scores_says_that_a_drawing_without_truth_judges_itself():
+    told = "without errors the drawing is right everywhere"
+    app = open_with(SWEEP, cell_px=10)
+    assert told not in texts(app)
+    app.session_state["own"] = replace(
+        building(prior_wall=True, true_wall=True), truth=None
+    )
+    app.session_state["choice"] = "own"
+    app.session_state["settings"] = Settings(range_px=20, cell_px=4)
+    for page in (
+        "pages/1_Build_a_map.py",
+        "pages/3_Two_maps.py",
+        SWEEP,
+        EXPLORER,
+        STUDY,
+    ):
+        app.switch_page(page).run()
+        assert not app.exception
+        assert told in texts(app)
+
+
 @pytest.mark.parametrize("case", SAD)
 def test_a_case_without_a_result_is_explained_on_every_page(case):
     parts, words = SAD[case]

@@ -100,6 +100,8 @@ class Coverage:
         Drawings asked for.
     n_complete : int
         Those with a result at every cell size.
+    n_untold : int
+        Those among them without a ground truth: the walls found are their world.
     paths : tuple of Path
         Files of the results, drawings in their order.
     failed : tuple of Step
@@ -108,6 +110,7 @@ class Coverage:
 
     n_drawings: int
     n_complete: int
+    n_untold: int
     paths: tuple[Path, ...]
     failed: tuple[Step, ...]
 
@@ -118,6 +121,11 @@ class Coverage:
             f"{self.n_complete} of {self.n_drawings} drawings gave a result at every "
             "cell size."
         ]
+        if self.n_untold:
+            lines.append(
+                f"Without a ground truth: {self.n_untold} of them. There the walls "
+                "found serve as the world, so the prior is right everywhere."
+            )
         reasons = {step.name: step.reason for step in self.failed}
         listed = list(reasons.items())[:MOST_LISTED]
         lines += [f"  {name}: {reason}" for name, reason in listed]
@@ -131,6 +139,7 @@ class Coverage:
         return {
             "drawings": self.n_drawings,
             "complete": self.n_complete,
+            "without_ground_truth": self.n_untold,
             "failed": [
                 {"drawing": step.name, "cell_px": step.cell_px, "reason": step.reason}
                 for step in self.failed
@@ -201,9 +210,13 @@ def _coverage(batch: Batch, steps: Sequence[Step]) -> Coverage:
     rank = {source.name: i for i, source in enumerate(batch.sources)}
     in_order = sorted(steps, key=lambda step: (rank[step.name], step.cell_px))
     failed = [step for step in in_order if step.path is None]
+    bad = {step.name for step in failed}
+    complete = [source for source in batch.sources if source.name not in bad]
+    untold = [source.path is not None and source.truth is None for source in complete]
     return Coverage(
         n_drawings=len(rank),
-        n_complete=len(rank) - len({step.name for step in failed}),
+        n_complete=len(complete),
+        n_untold=sum(untold),
         paths=tuple(step.path for step in in_order if step.path is not None),
         failed=tuple(failed),
     )

@@ -33,8 +33,13 @@ MOST_SHOWN = 60
 them."""
 
 _CHOICES: tuple[tuple[str, Enum, str], ...] = (
-    # The study repeats the source, which subtracted the prior at every reading.
-    ("--rule", UpdateRule.SUBTRACT_PRIOR, "how a reading enters the map"),
+    # The study repeats the source, which subtracted the prior, as we reconstruct it.
+    (
+        "--rule",
+        UpdateRule.SUBTRACT_PRIOR,
+        "how a reading enters the map; the default is the source's, as we reconstruct "
+        "it",
+    ),
     ("--region", Region.EXPLORED, "which cells are scored"),
     ("--behind-hit", BehindHit.OCCUPIED, "what a reading says of pixels behind a wall"),
 )

@@ -192,6 +192,16 @@ def say_error(text: str) -> None:
     st.error(words.plain(text))
 
 
+def truth_notice() -> None:
+    """Say where the scores compare a drawing with its own walls."""
+    building = state.building()
+    if building.truth is None and building.world.occupied.any():
+        st.info(
+            "No ground truth was given: the walls detected in the drawing serve as "
+            "the world, so without errors the drawing is right everywhere."
+        )
+
+
 def _ending() -> None:
     own = state.OWN in state.choices()
     kept = not own or state.work_key() is not None

@@ -267,7 +267,7 @@ def test_what_a_drawing_is_worth_is_what_occsim_says(page, app_url):
             first = re.match(r"A blank map needs (\d+) |No blank map of this", knows)
             assert first[1] == (None if bits is None else str(bits))
             if step == 0:
-                assert reaches == "– for this F2 (looked at)"
+                assert reaches == "– for this F2 (looked at by then)"
             else:
                 second = re.match(r"(\d+) reading|none reaches", reaches)
                 assert second[1] == (None if f2 is None else str(f2))

@@ -55,6 +55,10 @@ test("what agrees is said once", () => {
   );
 });
 
+test("a size that is not in the list is named as the others", () => {
+  assert.equal(player.wordLabel(WORDS, withChanges({ cell_px: 19 }), "cell_px"), "19 px cells");
+});
+
 test("choosing a word and reading it back gives the same word", () => {
   const choices = [
     ["drawing", "mirrored"],

@@ -18,6 +18,19 @@ test("a probability near 0 or 1 is not shown as certain", () => {
   assert.equal(player.probability(0), "0.000");
 });
 
+test("charts of maps with other readings or cells say so", () => {
+  const [three, one] = [{ cellPx: 3 }, { cellPx: 1 }];
+  const columns = (...logs) => logs.map((log) => ({ log }));
+  const tile = { about: "cells not looked at", unit: player.UNITS.cells };
+  assert.equal(player.aboutWords(tile, columns(three, three)), "cells not looked at");
+  const other = "cells not looked at, each of its map's size";
+  assert.equal(player.aboutWords(tile, columns(three, one)), other);
+  const shares = { about: "cells looked at", unit: player.UNITS.share };
+  assert.equal(player.aboutWords(shares, columns(three, one)), "cells looked at");
+  assert.equal(player.blankLabel(columns(three, three)), "blank");
+  assert.equal(player.blankLabel(columns(three, { cellPx: 3 })), "blank as A");
+});
+
 test("an undefined score is a dash", () => {
   assert.equal(player.percent(NaN), "\u2013");
   assert.equal(player.percent(0.8512), "85.1 %");

@@ -307,6 +307,13 @@ def save_claims(folder: Path, cases: Iterable[ClaimsCase]) -> dict[str, Count]:
     return counts
 
 
+SOURCE_LEGEND = (
+    "source: the conditions of the source, as we reconstruct them; its update rule, "
+    "the drawing taken off at every reading, is inferred.\n"
+    "Each other column differs from it in one condition; the last counts all."
+)
+"""What the columns of `claims_text` are."""
+
 _SHORT = {
     "rule": {"prior_once": "once"},
     "behind_hit": {"unseen": "unseen"},
@@ -347,7 +354,7 @@ def claims_text(counts: Mapping[str, Count]) -> str:
     legend = [
         f"{name}: {claim.sentence} ({claim.where})" for name, claim in CLAIMS.items()
     ]
-    return "\n".join((aligned(lines), "", *legend))
+    return "\n".join((aligned(lines), "", SOURCE_LEGEND, "", *legend))
 
 
 def _title(condition: Condition) -> str:

@@ -23,9 +23,10 @@ function newTile(p, { name, label, about, unit, region }) {
   const canvas = element("canvas", naming);
   const tile = element("div", { class: "tile", "data-score": name });
   tile.append(element("div", { class: "tile-head" }, element("b", {}, label), values), canvas);
-  tile.append(element("small", {}, about));
+  const small = element("small", {}, about);
+  tile.append(small);
   scrubOn(p, canvas);
-  return { name, region, unit: UNITS[unit], tile, values, canvas, picture: null };
+  return { name, region, about, small, unit: UNITS[unit], tile, values, canvas, picture: null };
 }
 
 function scrubOn(p, canvas) {
@@ -52,10 +53,20 @@ function stepAtCurve(canvas, event, last) {
 
 const scoreOf = (series, region, name) => (region === "all" ? series.all : series[region])[name];
 
+// What a chart shows; cells of several sizes cannot be compared by their number.
+function aboutWords({ about, unit }, columns) {
+  const isOneSize = columns.every(({ log }) => log.cellPx === columns[0].log.cellPx);
+  return unit === UNITS.cells && !isOneSize ? `${about}, each of its map's size` : about;
+}
+
+// The blank map rests on the readings and cells of the first map.
+const blankLabel = (columns) =>
+  columns.every(({ log }) => log === columns[0].log) ? "blank" : `blank as ${LETTERS[0]}`;
+
 // Of one map both regions, of several the chart's region; the blank map always.
 function linesOf(p, { name, region }) {
   const { colours } = p.header;
-  const blank = { ...BLANK_LINE, colour: colours.blank, label: "blank" };
+  const blank = { ...BLANK_LINE, colour: colours.blank, label: blankLabel(p.columns) };
   const blankOf = (where) => scoreOf(p.columns[0].blank, where, name);
   if (!isSeveral(p)) {
     const [column] = p.columns;
@@ -79,6 +90,7 @@ function linesOf(p, { name, region }) {
 function showCurves(p) {
   for (const tile of p.tiles) {
     tile.lines ??= linesOf(p, tile);
+    setText(tile.small, aboutWords(tile, p.columns));
     if (isSeveral(p)) showValues(tile, p.state.step);
     drawTile(tile, p.state.step, p.theme);
   }

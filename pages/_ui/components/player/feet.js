@@ -83,7 +83,7 @@ function worthWords(series, blank, step) {
     bits === null
       ? "No blank map of this tour knows as much"
       : `A blank map needs ${readingsWords(bits)} to know as much`;
-  return `${knows} (bits, all cells); ${f2Words(series, blank, step)} this F2 (looked at)`;
+  return `${knows} (bits, all cells); ${f2Words(series, blank, step)} this F2 (looked at by then)`;
 }
 
 function f2Words(series, blank, step) {

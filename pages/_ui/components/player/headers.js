@@ -45,7 +45,9 @@ function wordLabel(words, setting, word) {
   const value = wordValue(setting, word);
   if (value === "half") return "one half";
   if (word === "pair") return setting.calibrated ? "calibrated" : value.replace(",", ", ");
-  return words[word].find((option) => option.value === value)?.label ?? value;
+  // A link may give any size of a cell; the list has some.
+  const own = word === "cell_px" ? `${value} px cells` : value;
+  return words[word].find((option) => option.value === value)?.label ?? own;
 }
 
 // What all maps share, in words.
