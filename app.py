@@ -1,40 +1,33 @@
-"""Home: what this is, a replay that moves, and the way to the lessons."""
+"""Home: three maps that differ in what they start from, and the way to the lessons."""
 
 import streamlit as st
 
-from pages._ui import compute, replays, shell, state, words
-from pages._ui.components.player import PlayerDocument, map_player
-
-HOME_SAMPLE = "a"
-HOME_REPLAY = PlayerDocument(rev=1, compact=True)
+from pages._ui import compute, home, replays, shell, state, words
+from pages._ui.columns import HOME_COLUMNS, HOME_SAMPLE
+from pages._ui.components.player import map_player
 
 with shell.page("app.py"):
-    st.title("Occupancy grid mapping with informative priors", anchor=False)
+    building, settings = compute.sample(HOME_SAMPLE), state.defaults(HOME_SAMPLE)
+    st.title("Hand the robot a drawing. Then hand it the wrong one.", anchor=False)
     st.markdown(
-        "A robot with a range sensor drives through a building and records, cell by "
-        "cell, how probable it is that the cell is free. If the architect's drawing is "
-        "known, the map can start from its walls: they are its *prior*. Here you "
-        "can watch such maps grow, change the prior while they do, and find out "
-        "which priors help and which mislead."
+        f"One robot, one building, the same {len(building.trajectory)} readings. The "
+        "three maps differ only in what they start from."
     )
-    with st.container(key="home"):
-        links, picture = st.columns([2, 3], gap="large")
-    with links:
-        for lesson in shell.LESSONS[1:]:
-            st.page_link(
-                lesson.path,
-                label=f"**{lesson.label}**",
-                icon=":material/arrow_forward:",
-            )
-            st.caption(lesson.purpose)
-    with picture:
-        sample = compute.sample(HOME_SAMPLE)
-        settings = state.defaults(HOME_SAMPLE)
-        map_player(replays.replay(sample, settings), HOME_REPLAY, key="home_player")
-        st.caption(
-            f"The robot maps “{sample.title}”. White is free, black is occupied. "
-            "Cells that it has not seen yet are hatched and show the drawing: light "
-            "grey for space, dark grey for walls. Poses are known exactly, the sensor "
-            "has no noise, and the world is flat."
+    key = state.HOME_KEY
+    played = state.take_from_player(key)
+    with st.container(key="home_maps"):
+        map_player(
+            replays.replay_of(building, settings, HOME_COLUMNS),
+            state.player_document(key),
+            key=key,
+            held=state.parts_held(key),
         )
+    home.finding(played, building, settings)
+    home.terms()
+    with st.container(key="home_ways"):
+        path, plans = st.columns([3, 2], gap="large")
+    with path:
+        home.path()
+    with plans:
+        home.plans()
     st.caption(words.SOURCE)

@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages._ui import compute, controls, shell, state
-from pages._ui.priors import answers, guiding, scores
+from pages._ui.priors import answers, guiding
 
 with shell.page("pages/7_Best_prior.py") as lesson:
     shell.heading(lesson)
@@ -36,8 +36,7 @@ with shell.page("pages/7_Best_prior.py") as lesson:
     for one, column in zip(given, st.columns(len(given), gap="medium"), strict=True):
         with column:
             guiding.answer(run, one)
-    st.markdown(guiding.scores_table(run, given))
-    st.caption(scores.BITS)
+    st.markdown(guiding.scores_table(run, given), unsafe_allow_html=True)
     guiding.head(6, "Hand over the prior map")
     controls.segments("handover")
     guiding.hand_over(run, answers.handed_over(given))

@@ -59,6 +59,13 @@ class Column:
 MIN_COLUMNS, MAX_COLUMNS = 2, 3
 OPENING_COLUMNS = (Column(), Column(rule=UpdateRule.SUBTRACT_PRIOR))
 """The page of two maps opens with the two update rules."""
+HOME_SAMPLE = "e"
+HOME_COLUMNS = (
+    Column(uninformative=True),
+    Column(),
+    Column(prior_drawing=PriorDrawing.D),
+)
+"""The home page maps a building with no drawing, with its own, and with another's."""
 _LETTERS = dict(
     zip("dfwscurbz", [one.name for one in fields(Column)], strict=True),
 )

@@ -31,61 +31,76 @@ class Lesson:
     path: str
     label: str
     purpose: str
+    question: str
 
 
 LESSONS = (
-    Lesson("app.py", "Home", "What this is, and where to begin."),
+    Lesson(
+        "app.py",
+        "Home",
+        "What this is, and where to begin.",
+        "Who is right, the drawing or the robot?",
+    ),
     Lesson(
         "pages/0_What_the_sensor_says.py",
         "What the sensor says",
         "One reading, pixel by pixel: what it says of a cell, and how readings add up.",
+        "What does one reading say of one cell?",
     ),
     Lesson(
         "pages/1_Build_a_map.py",
         "Build a map",
         "A robot drives through a building and maps it, reading by reading; the map "
         "starts from the architect's drawing.",
+        "What does a robot without a drawing miss?",
     ),
     Lesson(
         "pages/3_Two_maps.py",
         "Two maps, one clock",
         "The same readings, two or three maps: click a word of a header to change the "
         "drawing, the prior or the rule of one of them.",
-    ),
-    Lesson(
-        "pages/2_Your_building.py",
-        "Your building",
-        "Upload a drawing: detect its walls, correct them by hand, set the ground "
-        "truth, and sketch the robot's path.",
+        "Where does a drawing help, and what if it is counted again?",
     ),
     Lesson(
         "pages/5_Sweep_the_priors.py",
         "Sweep the priors",
         "Every pair of prior values gives a map, and every map has a precision and a "
         "recall: here they are, all at once.",
+        "What is a good map: good for what?",
     ),
     Lesson(
         "pages/6_Pareto_explorer.py",
         "Pareto explorer",
         "Precision and recall of a map often conflict: these are the best compromises "
         "of the two, and the map that each of them gives.",
+        "Which prior: is there a best one?",
     ),
     Lesson(
         "pages/7_Best_prior.py",
         "Best prior",
         "All steps for one drawing: from its walls to the best prior map, to download.",
+        "What would you hand to the robot?",
     ),
     Lesson(
         "pages/8_Study.py",
         "Study",
         "All reference drawings at the source's three cell sizes, beside what the "
         "source published.",
+        "What does agreement with a paper show?",
+    ),
+    Lesson(
+        "pages/2_Your_building.py",
+        "Your building",
+        "Upload a drawing: detect its walls, correct them by hand, set the ground "
+        "truth, and sketch the robot's path.",
+        "Does it hold for your building?",
     ),
     Lesson(
         "pages/9_Exercises.py",
         "Exercises",
         "Find out for yourself: each exercise opens a page with everything set, and is "
         "judged by what you set there.",
+        "Can you show that it is so?",
     ),
 )
 
@@ -101,6 +116,8 @@ CSS = """
 [data-testid="stButtonGroup"] > div button { min-height: 2.5rem; }
 /* Captions are read, not skipped: Streamlit's 0.6 is a contrast of 3.9. */
 [data-testid="stCaptionContainer"] { opacity: 0.8; }
+/* As high as a link while it is loaded: what is below must not move. */
+.st-key-lessons > div { height: 1.25rem; }
 /* The page one is on is the clearest item, not the dimmest. */
 .st-key-current_page a, .st-key-current_page a * {
     color: inherit; opacity: 1; font-weight: 700;
@@ -110,12 +127,25 @@ CSS = """
 /* A wide table is swiped by itself; the page stays as wide as the screen. */
 [data-testid="stMarkdownContainer"] table { display: block; overflow-x: auto;
     width: max-content; max-width: 100%; }
+/* A term of the glossary: its meaning also shows when Tab or a finger is on it. */
+abbr[title] { cursor: help; text-decoration: underline dotted; }
+abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
+    left: 1rem; bottom: 1rem; max-width: calc(100vw - 2rem); padding: 0.5rem 0.75rem;
+    border-radius: 0.5rem; background: #31333f; color: #fff; font-size: 0.9rem;
+    font-weight: 400; text-align: left; white-space: normal; }
+/* The height that the home page's maps will have: nothing moves when they come. */
+.st-key-home_maps { min-height: calc(min(clamp(150px, 100vh - 400px, 700px),
+    (100vw - 96px) * 0.2667) + 212px); }
+.st-key-home_finding { min-height: 2rem; align-items: center; }
+.st-key-home_finding a { text-decoration: underline; }
+.st-key-home_ways [data-testid="stPageLink"] a * { white-space: normal; }
+.st-key-home_ways h3 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
     [data-testid="stButtonGroup"] > div { flex-wrap: wrap; }
-    /* On a telephone the picture that moves comes before the list of lessons. */
-    .st-key-home [data-testid="stHorizontalBlock"] { flex-direction: column-reverse; }
+    .st-key-home_maps { min-height: calc(3 * clamp(100px, (100vh - 430px) / 3, 150px)
+        + 274px); }
     /* One row to swipe, not three rows to scroll past. */
     .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; padding-bottom: 4px;
         scrollbar-width: none; }
@@ -126,7 +156,6 @@ CSS = """
     :has(> .st-key-map_words) { order: 2; }
     :has(> .st-key-ending) { order: 3; }
 }
-.st-key-home [data-testid="stCaptionContainer"] { margin-top: -0.5rem; }
 </style>
 """
 

@@ -1,6 +1,9 @@
 """Numbers and names as the pages show them."""
 
+import html
 import re
+
+from pages._ui import glossary
 
 DASH = "–"
 """Shown where a value is undefined."""
@@ -56,3 +59,12 @@ def plain(text: str) -> str:
 def percent(value: float) -> str:
     """A share in percent; a dash where it is undefined."""
     return DASH if value != value else f"{100 * value:.1f} %"
+
+
+def term(name: str, shown: str = "") -> str:
+    """Return HTML that shows a term, and its meaning when it is pointed at.
+
+    The text is ours, so that Markdown may take it as HTML; Tab reaches it as well.
+    """
+    about = html.escape(glossary.meaning(name))
+    return f'<abbr title="{about}" tabindex="0">{shown or name}</abbr>'

@@ -82,17 +82,6 @@ test("play at the end starts anew", () => {
   assert.deepEqual([p.state.step, p.playing], [0, true]);
 });
 
-test("a compact replay waits at its end, then starts again, and tells nobody", () => {
-  const p = playerOf({ step: 39, compact: true });
-  player.play(p);
-  player.advance(p, 1.5);
-  assert.deepEqual([p.state.step, p.playing], [40, true]);
-  player.advance(p, 0.2);
-  assert.equal(p.state.step, 40);
-  player.advance(p, 0.5);
-  assert.deepEqual([p.state.step, p.playing, committed], [0, true, []]);
-});
-
 test("a step by hand stops the replay and stays within the readings", () => {
   const p = playerOf({ step: 20 });
   for (const [to, step] of [

@@ -7,7 +7,7 @@ import streamlit as st
 from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
 from occsim.priors import ParetoFront, near_front
-from pages._ui import compute, controls, shell, state, words
+from pages._ui import compute, controls, glossary, shell, state, words
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, fronts, maps, marks, scores, surfaces
 from pages._ui.priors.front_figures import Mark
@@ -53,7 +53,7 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
     pair = maps.pair_text(*state.pair())
     st.markdown(f"**{words.maths('(p_wall, p_space)')} = {pair} on every drawing**")
     st.markdown(table(runs, state.prior()))
-    st.caption(scores.BITS)
+    st.caption(f"Bits per cell. {glossary.meaning('bits per cell')}")
 
 
 def near_counts(

@@ -45,7 +45,6 @@ def one_drawing(run: Run) -> None:
     for i, (one, column) in enumerate(zip(both, columns, strict=True)):
         with column:
             _of_rule(one, found[i] if found else None)
-    st.caption(scores.BITS)
     _ends(both)
     explain(run.has_errors)
 
@@ -155,7 +154,7 @@ def _of_rule(run: Run, found: Run | None) -> None:
         _buttons(run, min_recall)
     if len(run.front) > 1:
         _point_slider(run)
-    st.markdown(scores.table(run, state.prior()))
+    st.markdown(scores.table(run, state.prior()), unsafe_allow_html=True)
 
 
 def _buttons(run: Run, min_recall: float) -> None:

@@ -151,7 +151,11 @@ def _errors_of_others(run: Run) -> str:
 def scores_table(run: Run, answers: list[Answer]) -> str:
     """The scores of each answer's map, looked at and not; the blank map's below."""
     names = ("Precision", "Recall", "F2", "Bits per cell")
-    heads = [f"{name}, {where}" for where in scores.COLUMNS.values() for name in names]
+    heads = [
+        f"{words.term(name)}, {words.term(where)}"
+        for where in scores.COLUMNS.values()
+        for name in names
+    ]
     lines = [f"| Map | {' | '.join(heads)} |", "|---|" + "---:|" * len(heads)]
     for title, one in with_blank(answers):
         found = scores.values(run, one.prior, one.rule)

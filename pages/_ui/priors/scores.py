@@ -4,14 +4,10 @@ from dataclasses import dataclass
 
 from occsim import Prior, Region, UpdateRule
 from pages._ui.runs import Run
-from pages._ui.words import DASH, percent
+from pages._ui.words import DASH, percent, term
 
 COLUMNS = {Region.EXPLORED: "looked at", Region.UNEXPLORED: "not looked at"}
 BLANK = Prior.uninformative()
-BITS = (
-    "Bits per cell: the mean of −log₂ of the probability that the map gives to the "
-    "truth; less is better, and a map that says one half everywhere has 1."
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,11 +77,15 @@ def rows(run: Run, prior: Prior, rule: UpdateRule | None = None) -> list[Row]:
 
 
 def table(run: Run, prior: Prior, rule: UpdateRule | None = None) -> str:
-    """The rows as Markdown: two columns, the blank map's value beside each."""
-    heads = " | ".join(f"{title} | blank" for title in COLUMNS.values())
+    """The rows as Markdown: two columns, the blank map's value beside each.
+
+    Its terms are HTML, which the page must allow.
+    """
+    blank = term("blank map", "blank")
+    heads = " | ".join(f"{term(title)} | {blank}" for title in COLUMNS.values())
     lines = [f"| | {heads} |", "|---|" + "---:|" * 2 * len(COLUMNS)]
     for row in rows(run, prior, rule):
         pairs = zip(row.values, row.blank, strict=True)
         cells = " | ".join(f"**{value}** | {blank}" for value, blank in pairs)
-        lines.append(f"| {row.name} | {cells} |")
+        lines.append(f"| {term(row.name)} | {cells} |")
     return "\n".join(lines)

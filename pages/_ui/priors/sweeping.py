@@ -52,8 +52,7 @@ def one_drawing(run: Run) -> None:
     for one, column in zip(both, st.columns(2, gap="large"), strict=True):
         with column:
             st.markdown(f"**The chosen pair: {CHOICES[one.settings.rule].lower()}**")
-            st.markdown(scores.table(one, state.prior()))
-    st.caption(scores.BITS)
+            st.markdown(scores.table(one, state.prior()), unsafe_allow_html=True)
 
 
 def _pair_sliders() -> None:

@@ -22,6 +22,7 @@ from pages._ui.state.chosen import (
     query,
     reset_all,
     settings,
+    visited,
     work_key,
 )
 from pages._ui.state.edits import (
@@ -49,6 +50,7 @@ from pages._ui.state.pairs import (
     prior,
 )
 from pages._ui.state.replay import (
+    HOME_KEY,
     PLAYER_KEY,
     TWO_MAPS_KEY,
     forget_player,
@@ -69,6 +71,7 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "HOME_KEY",
     "LENS_KEY",
     "LENS_PATH",
     "OPENING",
@@ -123,5 +126,6 @@ __all__ = [
     "undo",
     "value",
     "view",
+    "visited",
     "work_key",
 ]

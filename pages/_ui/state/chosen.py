@@ -21,6 +21,7 @@ from pages._ui.state.replay import (
     go_to_place,
     open_players,
     place_in_replay,
+    restart_home,
 )
 from pages._ui.state.works import WORKS
 
@@ -45,6 +46,7 @@ def prepare(path: str) -> None:
     state = st.session_state
     if "settings" not in state:
         _open_link(path, st.query_params.to_dict())
+    state.visited = state.get("visited", frozenset()) | {path}
     # A component that leaves the screen loses its state.
     if state.get("path") != path:
         state.path = path
@@ -98,6 +100,11 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state.link_notice = path, " ".join(notices)
 
 
+def visited() -> frozenset[str]:
+    """The pages that this session has opened."""
+    return st.session_state.visited
+
+
 def link_notice(path: str) -> str:
     """What was wrong with the link that opened this page; empty on other pages."""
     opened, words = st.session_state.link_notice
@@ -132,6 +139,7 @@ def reset_all() -> None:
     renew_widgets()
     open_players(building())
     reset_lens()
+    restart_home()
 
 
 def renew_widgets() -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import streamlit as st
 
 from occsim.building import Building
+from pages._ui.columns import HOME_COLUMNS, Column
 from pages._ui.components.player import (
     PlayerDocument,
     decode_commit,
@@ -18,13 +19,18 @@ from pages._ui.settings import Settings, with_changes
 
 PLAYER_KEY = "map_player"
 TWO_MAPS_KEY = "two_maps"
+HOME_KEY = "home_player"
 TWO_MAPS_PATH = "pages/3_Two_maps.py"
 OF_COLUMN = ("p_wall", "p_space", "uninformative", "rule")
 """Settings of the app that the single map's player holds."""
 SHARED = (*OF_COLUMN, "overlay", "columns")
 """Settings of the app that some player holds as well."""
 
-NEW_PLAYED = {PLAYER_KEY: PlayerDocument(), TWO_MAPS_KEY: PlayerDocument()}
+NEW_PLAYED = {
+    PLAYER_KEY: PlayerDocument(),
+    TWO_MAPS_KEY: PlayerDocument(),
+    HOME_KEY: PlayerDocument(columns=HOME_COLUMNS, compact=True),
+}
 """What has been played in a new session: nothing."""
 
 
@@ -52,6 +58,8 @@ def player_document(key: str) -> PlayerDocument:
 
 
 def _from_settings(key: str, settings: Settings) -> dict[str, Any]:
+    if key == HOME_KEY:
+        return {}  # it shows no setting
     if key == TWO_MAPS_KEY:
         return {"columns": settings.columns, "overlay": settings.overlay}
     return {"columns": (settings.column,), "overlay": settings.overlay}
@@ -64,15 +72,27 @@ def take_from_player(key: str) -> PlayerDocument:
     """
     document = decode_commit(_commit(key), player_document(key))
     state = st.session_state
-    changes = {"overlay": document.overlay}
-    if key == TWO_MAPS_KEY:
-        changes["columns"] = document.columns
+    if key == HOME_KEY:
+        document = replace(document, columns=_home_columns(document))
     else:
-        [column] = document.columns
-        changes |= {name: getattr(column, name) for name in OF_COLUMN}
-    state.settings = with_changes(state.settings, changes)
+        changes = _to_settings(key, document)
+        state.settings = with_changes(state.settings, changes)
     state.played = state.played | {key: document}
     return document
+
+
+def _home_columns(document: PlayerDocument) -> tuple[Column, ...]:
+    """The home page's maps: of all that they say, only the rule can be chosen."""
+    rule = document.columns[0].rule
+    return tuple(replace(column, rule=rule) for column in HOME_COLUMNS)
+
+
+def _to_settings(key: str, document: PlayerDocument) -> dict[str, Any]:
+    if key == TWO_MAPS_KEY:
+        return {"columns": document.columns, "overlay": document.overlay}
+    [column] = document.columns
+    of_column = {name: getattr(column, name) for name in OF_COLUMN}
+    return {"overlay": document.overlay} | of_column
 
 
 def parts_held(key: str) -> frozenset[str]:
@@ -97,11 +117,21 @@ def opening_step(key: str, building: Building) -> int:
 def open_players(building: Building) -> None:
     """Let the players open where they do on a building that was just chosen."""
     st.session_state.played = {
-        key: replace(
+        key: played
+        if key == HOME_KEY  # it has a building of its own
+        else replace(
             played, step=opening_step(key, building), pin_px=None, predicted=None
         )
         for key, played in st.session_state.played.items()
     }
+    forget_player()
+
+
+def restart_home() -> None:
+    """Let the home page's maps play from the start, the question not yet answered."""
+    played = st.session_state.played
+    anew = replace(NEW_PLAYED[HOME_KEY], rev=played[HOME_KEY].rev)
+    st.session_state.played = played | {HOME_KEY: anew}
     forget_player()
 
 

@@ -60,6 +60,7 @@ SCRIPTS = (
     "headers.js",
     "referee.js",
     "several.js",
+    "story.js",
     "report.js",
     "commits.js",
     "player.js",

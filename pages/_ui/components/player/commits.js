@@ -1,7 +1,6 @@
 // What the player tells Python, and a screen reader.
 
 function commit(p, delay = 0) {
-  if (p.state.compact) return;
   clearTimeout(p.commitTimer);
   p.commitTimer = setTimeout(() => {
     remembered.get(p.header.key).toldStep = p.state.step;
@@ -22,7 +21,8 @@ function say({ root }, words) {
 }
 
 function stateWords(p) {
-  const { step } = p.state;
+  const { step, compact } = p.state;
+  if (compact) return `${stepWords(p)}: ${storyWords(p)}`;
   const maps = p.columns.map(({ series }, i) => {
     const scores = p.header.texts.scores.map(
       ({ name, label, unit }) => `${label} ${UNITS[unit].text(series.looked[name][step])}`,

@@ -17,12 +17,12 @@ function buildTiles(p) {
   for (const { tile } of p.tiles) partOf(p.root, "tiles").append(tile);
 }
 
-function newTile(p, { name, label, about, unit, region }) {
+function newTile(p, { name, label, about, unit, region, meaning }) {
   const values = element("span", { class: "values" });
   const naming = { role: "img", "aria-label": `${label} over the readings` };
   const canvas = element("canvas", naming);
   const tile = element("div", { class: "tile", "data-score": name });
-  tile.append(element("div", { class: "tile-head" }, element("b", {}, label), values), canvas);
+  tile.append(element("div", { class: "tile-head" }, element("b", { title: meaning }, label), values), canvas);
   const small = element("small", {}, about);
   tile.append(small);
   scrubOn(p, canvas);

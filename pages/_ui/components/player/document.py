@@ -37,9 +37,11 @@ class PlayerDocument:
     pin_px : tuple of float or None
         Point x, y of the drawing, px, whose cell is pinned.
     predicted : int or None
-        Index of the map that was said to find more walls; `MAX_COLUMNS` if none does.
+        Index of the map that was said to find more walls, or to be best;
+        `MAX_COLUMNS` if none was.
     compact : bool
-        A replay that runs by itself and has no controls but play and pause.
+        Maps that play by themselves and have no controls but play and pause; they ask
+        half-way which will be best, and at the end offer the other update rule.
     """
 
     rev: int = 0

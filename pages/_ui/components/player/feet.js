@@ -42,8 +42,8 @@ function newTable(p) {
     head.append(element("th", { scope: "col" }, heads[region]));
     head.append(element("th", { scope: "col", class: "blank" }, "blank"));
   }
-  const rows = p.header.texts.scores.map(({ name, label }) => {
-    const row = element("tr", {}, element("th", { scope: "row" }, label));
+  const rows = p.header.texts.scores.map(({ name, label, meaning }) => {
+    const row = element("tr", {}, element("th", { scope: "row", title: meaning }, label));
     for (const region of TABLE_REGIONS) {
       cells[`${region} ${name}`] = element("td", { "data-value": `${region} ${name}` });
       cells[`blank ${region} ${name}`] = element("td", { class: "blank" });

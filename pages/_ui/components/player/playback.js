@@ -1,8 +1,8 @@
 // The replay in time: play and pause, steps by hand, the scrubber and the speed.
 
-const LOOP_PAUSE = 1.6; // s at the end of a compact replay
 const FRAME_MAX = 0.1; // s; limits the jump after a page was in the background
 const REPLAY_SECONDS = 10; // duration of a replay unless a speed was chosen
+const COMPACT_SECONDS = 24; // of a compact one: what it shows is new to who watches
 const WHOLE = "whole"; // the choice of that duration
 
 function listenToTransport(p) {
@@ -27,7 +27,14 @@ function buildSpeeds(p, speeds) {
 }
 
 // Readings per second.
-const speedOf = ({ state, scene }) => state.speed ?? scene.nReadings / REPLAY_SECONDS;
+const speedOf = ({ state, scene }) =>
+  state.speed ?? scene.nReadings / (state.compact ? COMPACT_SECONDS : REPLAY_SECONDS);
+
+// Where a replay stops; a compact one half-way as well, unless its question was answered.
+function stopOf(p) {
+  const isBefore = p.state.step < halfOf(p);
+  return p.state.compact && p.state.predicted === null && isBefore ? halfOf(p) : p.scene.nReadings;
+}
 
 function play(p) {
   if (p.playing || !p.columns) return;
@@ -45,19 +52,14 @@ function play(p) {
   p.frame = requestAnimationFrame(tick);
 }
 
-// The position counts readings, with a fraction; past the end it counts the pause.
+// The position counts readings, with a fraction.
 function advance(p, seconds) {
-  const speed = speedOf(p);
-  const last = p.scene.nReadings;
-  p.position += seconds * speed;
-  goTo(p, Math.floor(p.position), p.position);
-  if (p.position < last) return;
-  if (p.state.compact) {
-    if (p.position > last + LOOP_PAUSE * speed) goTo(p, 0);
-  } else {
-    pause(p);
-    commit(p);
-  }
+  const stop = stopOf(p);
+  const position = Math.min(stop, p.position + seconds * speedOf(p));
+  goTo(p, Math.floor(position), position);
+  if (position < stop) return;
+  pause(p);
+  commit(p);
 }
 
 // Returns whether it was playing.

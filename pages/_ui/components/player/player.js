@@ -35,6 +35,7 @@ function opened(root) {
   listenToTabs(p);
   listenToButtons(p);
   root.addEventListener("keydown", (event) => keyDown(p, event));
+  listenToPage(p);
   p.observer = new ResizeObserver(() => resize(p));
   p.observer.observe(root);
   return p;
@@ -45,6 +46,7 @@ function close(p) {
   clearTimeout(p.commitTimer);
   p.loading++;
   p.observer.disconnect();
+  document.removeEventListener("keydown", p.pageKey);
   p.columns = null;
 }
 
@@ -75,6 +77,7 @@ function keyDown(p, event) {
       Escape: () => unpin(p),
       " ": () => togglePlay(p),
     };
+    if (p.state.compact && key !== " ") return;
     // Sliders, options and buttons keep their own keys.
     const isTheirs =
       (target.matches("select, input:not(.scrub)") && key !== "Escape") ||
@@ -107,6 +110,7 @@ function build(p, header) {
   buildSpeeds(p, header.speeds);
   buildBar(p, header);
   buildQuestion(p, header.texts.answers);
+  buildStory(p, header);
   const { columns, ...colours } = header.colours;
   columns.forEach((value, i) => p.root.style.setProperty(`--colour-column${i}`, value));
   for (const [name, value] of Object.entries(colours)) {
@@ -120,7 +124,7 @@ function take(p, header) {
   p.state = adopted(header, p.state);
   for (const setting of p.state.columns) Object.assign(setting, header.fixed);
   for (const column of p.columns ?? []) column.key = null; // the step may be another
-  Object.assign(p, { header, hover: null });
+  Object.assign(p, { header, hover: null, finalF2: null });
   learnParts(p, header);
   p.scene = partNamed(p, "scene ") ?? p.scene;
   p.theme = themeOf(p.root);
@@ -133,8 +137,7 @@ function take(p, header) {
   fitState(p);
   recolour(p);
   if (wasPlaying) commit(p);
-  const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  if (p.state.compact && !isStill) play(p);
+  if (p.state.compact && !isStill() && !isAsking(p) && !isOver(p)) play(p);
 }
 
 // The choices that apply. A player that returns without a new document continues where it
@@ -188,13 +191,15 @@ function recolour(p) {
   const isAnother = p.columns.length !== p.shown;
   if (isAnother) {
     p.shown = p.columns.length;
-    buildTiles(p);
+    if (!p.state.compact) buildTiles(p);
     layOut(p);
   }
-  if (changed.length || isAnother) recompare(p);
-  forgetCurves(p);
-  showControls(p);
-  showBar(p);
+  if (!p.state.compact) {
+    if (changed.length || isAnother) recompare(p);
+    forgetCurves(p);
+    showControls(p);
+    showBar(p);
+  }
   refresh(p);
   p.root.dataset.ready = "1";
   p.root.dataset.recolourMs = (performance.now() - began).toFixed(2);
@@ -220,14 +225,16 @@ function refresh(p) {
   const began = performance.now();
   drawStage(p);
   showStep(p);
-  if (!p.state.compact) {
+  if (p.state.compact) {
+    showStory(p);
+  } else {
     showTab(p);
     if (isSeveral(p)) {
       showReferee(p);
       showQuestion(p);
     }
-    report(p);
   }
+  report(p);
   p.root.dataset.drawMs = (performance.now() - began).toFixed(2);
 }
 

@@ -1,5 +1,6 @@
 // The stage: its panes, their sizes, and the way between px of the drawing and of the
-// screen. One map stands beside the drawing; several stand beside their difference.
+// screen. One map stands beside the drawing; several stand beside their difference; those
+// of a compact replay stand by themselves.
 
 const PANE_GAP = 16;
 const CAPTION_HEIGHT = 22;
@@ -19,13 +20,19 @@ const isSeveral = (p) => p.state.columns.length > 1;
 // Builds the panes again where the number of maps has changed.
 function buildStage(p) {
   const n = p.state.columns.length;
-  if (p.views?.length === n + 1) return;
+  if (p.views?.filter(({ kind }) => kind === "map").length === n) return;
   const maps = p.state.columns.map((_, i) => newView(p, "map", i));
-  p.views = isSeveral(p) ? [...maps, newView(p, "difference", 0)] : [newView(p, "drawing", 0), ...maps];
+  p.views = viewsBeside(p, maps);
   p.root.classList.toggle("several", isSeveral(p));
-  p.root.style.setProperty("--panes", n + 1);
+  p.root.style.setProperty("--panes", p.views.length);
   p.root.querySelector(".stage").replaceChildren(...p.views.map(({ pane }) => pane));
-  buildFeet(p);
+  if (p.state.compact) buildTallies(p);
+  else buildFeet(p);
+}
+
+function viewsBeside(p, maps) {
+  if (p.state.compact) return maps;
+  return isSeveral(p) ? [...maps, newView(p, "difference", 0)] : [newView(p, "drawing", 0), ...maps];
 }
 
 function newView(p, kind, column) {
@@ -39,6 +46,7 @@ function newView(p, kind, column) {
 
 function canvasNames(p, kind, column) {
   if (kind !== "map") return { role: "img", "aria-label": IMAGES[kind] };
+  if (p.state.compact) return { role: "img", "aria-label": `Map: ${storyName(p, column)}` };
   const name = isSeveral(p) ? `Map ${LETTERS[column]}` : "Occupancy grid map";
   const keys =
     "Hover on a cell, or move with the arrow keys, for its numbers; click or press Enter to pin it.";
@@ -47,6 +55,7 @@ function canvasNames(p, kind, column) {
 
 function captionOf(p, kind, column) {
   if (kind === "difference") return [element("span", { class: "name" }, "Who is right"), p.differenceKeys];
+  if (p.state.compact) return [element("span", { class: "name" }, storyName(p, column))];
   if (kind === "map" && isSeveral(p)) return [newHeader(p, column)];
   const name = element("span", { class: "name" }, kind === "map" ? "Map" : "Drawing");
   return [name, kind === "map" ? p.legend : element("span", { class: "legend" }, ...drawingKeys())];

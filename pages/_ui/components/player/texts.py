@@ -7,6 +7,7 @@ from occsim.prior import SOURCE_PAIR
 from pages._ui import palette
 from pages._ui.choices import CHOICES, Flaw, Overlay, PriorDrawing
 from pages._ui.columns import MAX_COLUMNS
+from pages._ui.glossary import meaning
 
 ABOUT = {
     UpdateRule.SUBTRACT_PRIOR: "Each reading adds its log-odds less the prior's, l_0.",
@@ -56,6 +57,32 @@ DRAWINGS = {
 NO_DRAWING = {"value": "none", "label": "no drawing"}
 CELL_SIZES_PX = (1, 2, 3, 5, 10)
 
+STORY = {
+    "maps": {
+        "none": "No drawing",
+        "own": "This building's drawing",
+        "other": "Another building's drawing",
+    },
+    "watch": "Where the robot looks, it finds out. Where it does not look, it believes "
+    "the drawing.",
+    "question": "Which will be best when it has seen every room?",
+    "answers": {
+        "none": "No drawing",
+        "own": "Its own drawing",
+        "other": "The wrong drawing",
+    },
+    "switch": "Count the drawing",
+    "rules": {
+        UpdateRule.PRIOR_ONCE.value: "once",
+        UpdateRule.SUBTRACT_PRIOR.value: "again at every reading",
+    },
+    "meanings": {
+        name: meaning(name)
+        for name in ("looked at", "not looked at", "walls found", "false walls", "F2")
+    },
+}
+"""The home page's replay: its maps by what they start from, and what it says."""
+
 
 def _option(value: Enum | int, label: str) -> dict[str, str]:
     return {
@@ -94,9 +121,19 @@ def header_words(drawings: list[PriorDrawing]) -> dict[str, list[dict[str, str]]
 TEXTS = {
     "rules": _options(UpdateRule),
     "overlays": _options(Overlay),
-    "scores": [{"name": k, "label": n, "about": a, "unit": u} for k, n, a, u in SCORES],
+    "scores": [
+        {"name": k, "label": n, "about": a, "unit": u, "meaning": meaning(n)}
+        for k, n, a, u in SCORES
+    ],
     "curves": [
-        {"name": k, "label": n, "about": a, "unit": u, "region": r}
+        {
+            "name": k,
+            "label": n,
+            "about": a,
+            "unit": u,
+            "region": r,
+            "meaning": meaning(n),
+        }
         for k, n, a, u, r in CURVES
     ],
     "errors": [{"mark": k, "label": n} for k, n in ERRORS],
@@ -105,6 +142,7 @@ TEXTS = {
         *({"value": i, "label": "ABC"[i]} for i in range(MAX_COLUMNS)),
         {"value": MAX_COLUMNS, "label": "none more than another"},
     ],
+    "story": STORY,
 }
 COLOURS = {
     "beliefOccupied": palette.BELIEF_OCCUPIED,

@@ -1,0 +1,141 @@
+"""The home page: its maps, the answer it keeps, the path of lessons and the plans."""
+
+from dataclasses import replace
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from occsim import UpdateRule, load_sample
+from pages._ui import home, state
+from pages._ui.choices import PriorDrawing
+from pages._ui.columns import HOME_COLUMNS, HOME_SAMPLE, Column
+from pages._ui.components.player import PlayerDocument, encode_document
+from pages._ui.shell import LESSONS
+from tests.test_pages import BUILD, ROOT, launch
+
+HOME = "app.py"
+LAST = len(load_sample(HOME_SAMPLE).trajectory)
+
+
+def played(app):
+    return app.session_state["played"][state.HOME_KEY]
+
+
+def commit(app, **changes):
+    """What the browser sends: the current document with changes."""
+    document = encode_document(played(app))
+    app.session_state[state.HOME_KEY] = {"committed": document | changes}
+    app.run()
+    assert not app.exception
+    return app
+
+
+def under(rule):
+    """The maps of the home page under a rule, as the browser sends them."""
+    columns = tuple(replace(column, rule=rule) for column in HOME_COLUMNS)
+    return encode_document(PlayerDocument(columns=columns))["columns"]
+
+
+def labels(app):
+    return [link.proto.label for link in app.get("page_link")]
+
+
+def reopened(app):
+    """The home page after another one, as a student comes back to it."""
+    app.switch_page(BUILD).run()
+    app.switch_page(HOME).run()
+    assert not app.exception
+    return app
+
+
+# --- The maps -------------------------------------------------------------------------
+
+
+def test_it_opens_before_the_first_reading_with_three_maps_that_play():
+    document = played(launch(HOME))
+    assert (document.step, document.predicted, document.compact) == (0, None, True)
+    none, own, other = document.columns
+    assert none == Column(uninformative=True)
+    assert own == Column()
+    assert other == Column(prior_drawing=PriorDrawing.D)
+
+
+def test_the_answer_is_kept_while_other_pages_are_visited():
+    app = commit(launch(HOME), predicted=2, step=LAST)
+    app = reopened(app)
+    assert (played(app).predicted, played(app).step) == (2, LAST)
+
+
+def test_another_building_on_another_page_leaves_the_answer():
+    app = commit(launch(HOME), predicted=2, step=LAST)
+    app.switch_page(BUILD).run()
+    next(one for one in app.selectbox if one.label == "Drawing").set_value("a").run()
+    app.switch_page(HOME).run()
+    assert played(app).predicted == 2
+    assert played(app).columns == HOME_COLUMNS
+
+
+def test_reset_all_starts_it_anew():
+    columns = under(UpdateRule.SUBTRACT_PRIOR)
+    app = commit(launch(HOME), predicted=1, step=LAST, columns=columns)
+    rev = played(app).rev
+    next(one for one in app.button if one.label == "Reset all").click().run()
+    assert played(app) == PlayerDocument(
+        rev=rev + 1, columns=HOME_COLUMNS, compact=True
+    )
+
+
+def test_only_the_rule_of_its_maps_can_be_changed():
+    """A commit is not trusted; and no setting of the other pages follows it."""
+    app = launch(HOME)
+    before = app.session_state["settings"]
+    odd = replace(Column(), p_wall=0.7, cell_px=1, rule=UpdateRule.SUBTRACT_PRIOR)
+    columns = encode_document(PlayerDocument(columns=(odd, odd)))["columns"]
+    commit(app, columns=columns)
+    assert played(app).columns == tuple(
+        replace(column, rule=UpdateRule.SUBTRACT_PRIOR) for column in HOME_COLUMNS
+    )
+    assert app.session_state["settings"] == before
+
+
+@pytest.mark.parametrize(
+    ("rule", "step", "is_said"),
+    [
+        (UpdateRule.SUBTRACT_PRIOR, LAST, True),
+        (UpdateRule.SUBTRACT_PRIOR, LAST - 1, False),
+        (UpdateRule.PRIOR_ONCE, LAST, False),
+    ],
+)
+def test_what_the_switch_did_is_said_at_the_end_only(rule, step, is_said):
+    app = commit(launch(HOME), step=step, columns=under(rule))
+    assert (f"**{home.FINDING}**" in labels(app)) == is_said
+
+
+# --- The path and the plans -----------------------------------------------------------
+
+
+def test_the_path_has_every_page_in_order_with_its_question():
+    path = [text for text in labels(launch(HOME)) if text[0].isdigit()][: len(LESSONS)]
+    for number, (text, lesson) in enumerate(zip(path, LESSONS, strict=True)):
+        assert text.startswith(f"{number}. **{lesson.label}.** {lesson.question}")
+        assert lesson.question.endswith("?")
+
+
+def test_pages_that_were_visited_are_marked():
+    app = launch(HOME)
+    marked = [text for text in labels(app) if "(visited)" in text]
+    assert len(marked) == 1
+    assert "Home" in marked[0]
+    marked = [text for text in labels(reopened(app)) if "(visited)" in text]
+    assert ["Home" in marked[0], "Build a map" in marked[1]] == [True, True]
+
+
+def test_a_session_that_begins_on_another_page_marks_that_one():
+    app = AppTest.from_file(str(ROOT / HOME), default_timeout=60)
+    app.switch_page(BUILD).run()
+    assert app.session_state["visited"] == {BUILD}
+
+
+def test_the_plan_of_45_minutes_is_one_and_leads_to_pages_that_exist():
+    assert sum(minutes for minutes, _, _ in home.PLAN) == 45
+    assert {page for _, page, _ in home.PLAN} <= {lesson.path for lesson in LESSONS}
