@@ -37,7 +37,7 @@ LABELS = {
 WORDS: dict[Enum, str] = {
     UpdateRule.SUBTRACT_PRIOR: "Taken off each reading",
     UpdateRule.PRIOR_ONCE: "Counted once",
-    BehindHit.OCCUPIED: "Object",
+    BehindHit.OCCUPIED: "Occupied",
     BehindHit.UNSEEN: "Unseen",
     Region.EXPLORED: "Looked at",
     Region.ALL: "All",
