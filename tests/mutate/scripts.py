@@ -11,6 +11,7 @@ WORDS = "tests/node/words.test.mjs"
 SCORES = "tests/node/scores.test.mjs"
 VERDICTS = "tests/node/verdicts.test.mjs"
 HEADERS = "tests/node/headers.test.mjs"
+STORY = "tests/node/story.test.mjs"
 LENS = "tests/node/lens.test.mjs"
 RAYS = "tests/test_lens.py::test_browser_and_library_agree_on_500_poses"
 SUMS = "tests/test_lens.py::test_readings_add_up_as_in_a_map"
@@ -241,10 +242,52 @@ _ROWS = (
     ),
     (
         "player/playback.js",
-        "if (p.position < last) return;",
-        "if (p.position <= last) return;",
+        "if (position < stop) return;",
+        "if (position <= stop) return;",
         PLAYER,
         "a replay that does not stop at its end",
+    ),
+    (
+        "player/playback.js",
+        "p.state.compact && p.state.predicted === null && isBefore",
+        "p.state.compact && isBefore",
+        STORY,
+        "a question that is asked again",
+    ),
+    (
+        "player/playback.js",
+        "Math.min(stop, p.position + seconds * speedOf(p))",
+        "p.position + seconds * speedOf(p)",
+        STORY,
+        "a long frame that jumps over the question",
+    ),
+    (
+        "player/story.js",
+        "for (const setting of p.state.columns) setting.rule = rule;",
+        "p.state.columns[0].rule = rule;",
+        STORY,
+        "a switch for one map only",
+    ),
+    (
+        "player/story.js",
+        "setPrior(column, { ...p.state.columns[i], rule });",
+        "setPrior(column, p.state.columns[i]);",
+        STORY,
+        "F2 before and after under the same rule",
+    ),
+    (
+        "player/story.js",
+        "map(({ prior_once }) => prior_once)",
+        "map(({ subtract_prior }) => subtract_prior)",
+        STORY,
+        "the best map named by the rule that is switched on",
+    ),
+    (
+        "player/feet.js",
+        'n === 1 ? "reading" : "readings"',
+        '"readings"',
+        SCORES,
+        "one readings",
     ),
     (
         "player/playback.js",
