@@ -2,6 +2,7 @@
 
 import itertools
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -84,13 +85,29 @@ def pixels(tour):
     return tuple(np.floor(tour.poses[:, 1::-1]).astype(int).T)
 
 
-def touched(tour):
-    """Pixels (row, col) of all straight steps, looked at every eighth of a pixel."""
-    parts = [tour.poses[:1, :2]]
-    for start, end in itertools.pairwise(tour.poses[:, :2]):
-        n = 8 * int(np.hypot(*(end - start))) + 2
-        parts.append(np.linspace(start, end, n))
-    return tuple(np.floor(np.concatenate(parts)[:, ::-1]).astype(int).T)
+def touched(tour, left_out=()):
+    """Pixels (row, col) of straight steps, looked at every eighth of a pixel.
+
+    Steps with a true value in `left_out` are not looked at.
+    """
+    points = [tour.poses[:, :2]]
+    pairs = itertools.pairwise(tour.poses[:, :2])
+    for (start, end), out in itertools.zip_longest(pairs, left_out, fillvalue=False):
+        if not out:
+            n = 8 * int(np.hypot(*(end - start))) + 2
+            points.append(np.linspace(start, end, n))
+    return tuple(np.floor(np.concatenate(points)[:, ::-1]).astype(int).T)
+
+
+def parts(world):
+    """Number of the part of the inside, closed off from the others, of each pixel."""
+    clear = free_space(world, 1.0) & inside_building(world)
+    return cv2.connectedComponents(clear.astype(np.uint8), connectivity=4)[1]
+
+
+def carried(world, tour):
+    """Which steps lead from one part of the building to another."""
+    return np.diff(parts(world)[pixels(tour)]) != 0
 
 
 def seen_share(world, tour, sensor, region):
@@ -436,7 +453,9 @@ def test_tour_keeps_inside_off_walls_and_within_its_readings(
     sensor = Sensor(range_px=range_px, fov_rad=fov)
     tour = default_tour(world, sensor, max_readings=most)
     assert 1 <= len(tour) <= most
-    assert not world.occupied[touched(tour)].any()
+    between = carried(world, tour)
+    assert not world.occupied[touched(tour, between)].any()
+    assert np.count_nonzero(between) < parts(world).max()
     assert inside_building(world)[pixels(tour)].all()
     assert set(tour.poses[:, 2]) <= set(CARDINAL_HEADINGS_RAD)
     again = default_tour(world, sensor, max_readings=most)
@@ -521,29 +540,46 @@ def test_windows_are_no_way_out_where_a_door_leads_on():
     assert set(columns) == {0, 1, 2}
 
 
-def test_two_buildings_are_walked_one_after_the_other():
-    """Once outside, from the one's front door to the other's; and a shed left out."""
-    rooms = [(20, 20, 120, 110), (20, 150, 120, 240), (150, 20, 174, 44)]
-    doors = [(116, 60, 120, 80), (116, 190, 120, 210), (170, 28, 174, 36)]
+def test_two_storeys_are_walked_one_after_the_other():
+    """Carried once, with no pose outside; and a shed of a hundredth is left out."""
+    rooms = [(20, 20, 120, 110), (20, 150, 120, 240), (150, 20, 166, 36)]
+    doors = [(116, 60, 120, 80), (116, 190, 120, 210), (162, 24, 166, 32)]
     world = boxes(190, 260, rooms, doors)
     sensor = Sensor(range_px=20)
     tour = default_tour(world, sensor)
     inside = inside_building(world)
-    assert not world.occupied[touched(tour)].any()
-    indoors = inside[pixels(tour)]
-    assert 0 < np.count_nonzero(~indoors) <= 3
-    side = tour.poses[indoors, 0] > 130
-    assert np.count_nonzero(np.diff(side)) == 1
+    assert inside[pixels(tour)].all()
+    between = carried(world, tour)
+    assert np.count_nonzero(between) == 1
+    assert not world.occupied[touched(tour, between)].any()
+    assert np.count_nonzero(np.diff(tour.poses[:, 0] > 130)) == 1
     assert seen_share(world, tour, sensor, inside) > 0.95
     assert (tour.poses[:, 1] < 140).all()
 
 
-def test_closed_room_is_left_out():
-    rooms = [(20, 20, 120, 110), (20, 106, 120, 150)]
-    world = boxes(140, 170, rooms, [(116, 60, 120, 80)])
+def test_storey_without_a_way_out_is_toured_too():
+    """Two houses that no door leads out of; the larger one first."""
+    rooms = [(20, 20, 80, 80), (100, 20, 180, 140)]
+    world = boxes(200, 160, rooms)
+    sensor = Sensor(range_px=20)
+    tour = default_tour(world, sensor)
+    assert tour.poses[0, 1] > 100
+    between = carried(world, tour)
+    assert np.count_nonzero(between) == 1
+    assert not world.occupied[touched(tour, between)].any()
+    assert seen_share(world, tour, sensor, inside_building(world)) > 0.95
+
+
+def test_closed_room_is_toured_and_closed_shaft_left_out():
+    """A door is often drawn shut. The shaft of 6 x 12 px is a hundredth of it all."""
+    rooms = [(20, 20, 120, 110), (20, 106, 120, 150), (40, 146, 60, 160)]
+    world = boxes(140, 180, rooms, [(116, 60, 120, 80)])
     tour = default_tour(world, Sensor(range_px=20))
-    assert (tour.poses[:, 0] < 106).all()
-    assert not world.occupied[touched(tour)].any()
+    between = carried(world, tour)
+    assert np.count_nonzero(between) == 1
+    assert not world.occupied[touched(tour, between)].any()
+    assert (tour.poses[:, 0] > 110).any()
+    assert (tour.poses[:, 0] < 146).all()
 
 
 def test_few_readings_are_spread_over_the_building():

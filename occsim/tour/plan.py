@@ -28,10 +28,9 @@ _LEAST_CLEARANCE_PX = 1.0
 # A robot as wide as two fifths of a door, where the range is a door's length.
 _CLEARANCE_SHARE = 0.2
 _CLEARANCE_LIMITS_PX = (2.0, 8.0)
-# A pixel of way close to walls, or outside, costs as much as so many others.
+# A pixel of way close to walls costs as much as so many others.
 _CLOSE_COST = 3.0
-_OUTSIDE_COST = 20.0
-# Of the inside: smaller parts to which only a way outside leads are left out.
+# Of the inside: parts to which no way leads from the others are left out below this.
 _LEAST_PART = 0.02
 # Of the range: between positions to look from, and the side of the cells that are seen.
 _SPACING_SHARE = 0.15
@@ -60,9 +59,8 @@ class _Ground:
         clear = clearance >= _LEAST_CLEARANCE_PX
         share = _CLEARANCE_SHARE * sensor.range_px
         comfort_px = float(np.clip(share, *_CLEARANCE_LIMITS_PX))
-        # Outside, few turns are worth more than keeping away from walls.
-        roomy = clear & (~inside | (clearance >= comfort_px))
-        return cls(inside, clear, np.minimum(clearance, comfort_px), roomy)
+        roomy = inside & (clearance >= comfort_px)
+        return cls(inside, clear & inside, np.minimum(clearance, comfort_px), roomy)
 
 
 def default_tour(
@@ -82,11 +80,13 @@ def default_tour(
     Returns
     -------
     Trajectory
-        One walk: each step is a straight line that touches no wall. At each position
-        the robot looks where it sees most that is new, in one or more of the four
-        cardinal headings; at a corner of the way it looks along it. The tour ends
+        One walk: each step is a straight line inside that touches no wall. At each
+        position the robot looks where it sees most that is new, in one or more of the
+        four cardinal headings; at a corner of the way it looks along it. The tour ends
         when nearly all is seen that can be seen from where the robot gets. Where
         `max_readings` ends it before, the readings that show most are taken.
+        Storeys on one sheet, and rooms without an open door, have a walk each, the
+        largest first; from one to the next the robot is carried.
 
     Raises
     ------
@@ -98,8 +98,8 @@ def default_tour(
     Notes
     -----
     Deterministic. Readings are chosen greedily. What is inside is a guess, see
-    `inside_building`; the whole drawing, where nothing is. Rooms behind closed doors
-    are left out. Between two buildings, and nowhere else, the robot walks outside.
+    `inside_building`; the whole drawing, where nothing is. Closed parts of less than
+    a fiftieth of the inside are left out, and the robot is never outside.
 
     Examples
     --------
@@ -116,8 +116,8 @@ def default_tour(
     if world.occupied.all():
         raise _no_free_space(0.0)
     ground = _Ground.of(world, sensor)
-    lattice, wanted = _reachable(_lattice(world, ground), ground)
-    place, heading = _looks(lattice, wanted, ground, sensor)
+    lattice = _lattice(ground)
+    place, heading = _looks(lattice, ground, sensor)
     poses = np.column_stack([lattice.points_px(place), heading])
     cell_px = int(np.clip(round(_CELL_SHARE * sensor.range_px), 1, _CELL_LIMIT_PX))
     grid = world.grid(cell_px)
@@ -127,57 +127,37 @@ def default_tour(
     n_looks = min(len(chosen), max(1, int(_LOOK_SHARE * max_readings)))
     while True:
         looks = chosen[:n_looks]
-        tour = _walk(lattice, place[looks], heading[looks], ground)
+        tour = _tour(lattice, place[looks], heading[looks], ground)
         if len(tour) <= max_readings:
             return Trajectory(poses=tour)
         n_looks = max(1, int(_LESS * n_looks * max_readings / len(tour)))
 
 
-def _lattice(world: World, ground: _Ground) -> Lattice:
-    """Return the lattice over the building and a strip around it."""
-    row, col = np.nonzero(ground.inside)
-    step_px = int(np.ceil(np.sqrt(row.size / _MAX_NODES)))
-    margin = int(4 * (step_px + ground.clearance.max()))
-    near = np.zeros_like(ground.inside)
-    near[
-        max(row.min() - margin, 0) : row.max() + margin + 1,
-        max(col.min() - margin, 0) : col.max() + margin + 1,
-    ] = True
+def _lattice(ground: _Ground) -> Lattice:
+    """Return the lattice over the inside, without the smallest of its parts."""
+    step_px = int(np.ceil(np.sqrt(np.count_nonzero(ground.inside) / _MAX_NODES)))
     cost = np.where(ground.roomy, 1.0, _CLOSE_COST)
-    cost *= np.where(ground.inside, 1.0, _OUTSIDE_COST)
-    lattice = build_lattice(ground.clear & near, step_px, cost)
-    if not ground.inside[lattice.row, lattice.col].any():  # passages of a pixel or two
-        lattice = build_lattice(~world.occupied & near, 1, cost)
-    return lattice
-
-
-def _reachable(lattice: Lattice, ground: _Ground) -> tuple[Lattice, BoolArray]:
-    """Return the part that holds most of the inside, and which of its nodes that is."""
-    inside = ground.inside[lattice.row, lattice.col]
+    lattice = build_lattice(ground.clear, step_px, cost)
+    if not len(lattice):  # passages of a pixel or two
+        lattice = build_lattice(ground.inside, 1, cost)
     part = lattice.parts()
-    kept = part == np.argmax(np.bincount(part, weights=inside))
-    lattice, inside = lattice.take(kept), inside[kept]
-    indoors = lattice.take(inside).parts()
-    size = np.bincount(indoors)
-    least = min(_LEAST_PART * size.sum(), size.max())
-    wanted = inside.copy()
-    wanted[inside] = (size >= least)[indoors]
-    return lattice, wanted
+    size = np.bincount(part)
+    return lattice.take((size >= min(_LEAST_PART * len(lattice), size.max()))[part])
 
 
 def _looks(
-    lattice: Lattice, wanted: BoolArray, ground: _Ground, sensor: Sensor
+    lattice: Lattice, ground: _Ground, sensor: Sensor
 ) -> tuple[IntArray, FloatArray]:
     """Return nodes to look from and headings, one view each.
 
     One node in each square of a spacing's side; one with less than the comfortable
     clearance only where no neighbour has more.
     """
-    clearance = np.where(wanted, ground.clearance[lattice.row, lattice.col], 0.0)
+    clearance = ground.clearance[lattice.row, lattice.col]
     links = lattice.graph.tocoo()
     around = clearance.copy()
     np.maximum.at(around, links.row, clearance[links.col])
-    nodes = np.flatnonzero(wanted & (clearance >= around))
+    nodes = np.flatnonzero(clearance >= around)
     least_px = np.sqrt(np.count_nonzero(ground.inside) / _MAX_POSITIONS)
     spacing_px = max(_SPACING_SHARE * sensor.range_px, float(least_px))
     x, y = lattice.points_px(nodes).T / spacing_px
@@ -192,11 +172,27 @@ def _looks(
     return np.repeat(spots, len(headings)), np.tile(headings, spots.size)
 
 
+def _tour(
+    lattice: Lattice, place: IntArray, heading: FloatArray, ground: _Ground
+) -> FloatArray:
+    """Return the poses of a walk in each part of the building, the largest first."""
+    part = lattice.parts()
+    walks = []
+    for one in np.argsort(-np.bincount(part), kind="stable"):
+        here, nodes = part[place] == one, np.flatnonzero(part == one)
+        if here.any():
+            stop = np.searchsorted(nodes, place[here])
+            walks.append(_walk(lattice.take(part == one), stop, heading[here], ground))
+    return np.concatenate(walks)
+
+
 def _walk(
     lattice: Lattice, place: IntArray, heading: FloatArray, ground: _Ground
 ) -> FloatArray:
     """Return the poses of a walk to all places, with the headings wanted there."""
-    stops, stop = np.unique(place, return_inverse=True)
+    order = np.lexsort((heading, place))
+    stops, first = np.unique(place[order], return_index=True)
+    looks_at = np.split(heading[order], first[1:])
     poses: list[tuple[float, float, float]] = []
     here = stops[:0]
     for which, nodes in shortest_walk(lattice, stops):
@@ -207,7 +203,7 @@ def _walk(
         turns = zip(points[1:-1], ways[1:], strict=True)
         poses += [(x, y, way) for (x, y), way in turns]
         # It turns on the spot from the heading it arrives with, clockwise on screen.
-        looks = np.sort(heading[stop == which])
+        looks = looks_at[which]
         facing = ways[-1] if ways.size else 0.0
         looks = np.roll(looks, -int(np.argmin(np.abs(wrap_angle(looks - facing)))))
         poses += [(*points[-1], look) for look in looks]

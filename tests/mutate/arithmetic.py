@@ -96,10 +96,10 @@ ARITHMETIC: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/tour/plan.py",
-        "np.where(ground.inside, 1.0, _OUTSIDE_COST)",
-        "1.0",
+        "cls(inside, clear & inside,",
+        "cls(inside, clear,",
         ("tests/test_tour.py",),
-        "a way indoors is taken rather than one through windows",
+        "the robot is never outside",
     ),
     Mutation(
         "occsim/tour/plan.py",
