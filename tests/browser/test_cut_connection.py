@@ -77,7 +77,7 @@ def test_a_restart_loses_one_move_and_no_setting(window, tmp_path):
 
 def test_a_building_that_a_restarted_server_no_longer_has_is_told(window, tmp_path):
     def upload():
-        window.get_by_role("button", name="Your own drawing").click()
+        window.get_by_role("button", name="Upload").click()
         window.locator("input[type=file]").first.set_input_files(
             {"name": "plan.png", "mimeType": "image/png", "buffer": png(rooms())}
         )
