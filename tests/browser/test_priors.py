@@ -68,6 +68,7 @@ def still_place(page, plot, x, y):
 
 def click_at(page, plot, x, y):
     """Click a place in a chart; return the seconds until another map was shown."""
+    plot.scroll_into_view_if_needed()
     left, top = still_place(page, plot, x, y)
     page.mouse.move(left, top)
     page.wait_for_timeout(150)
