@@ -9,19 +9,19 @@ from occsim._types import ByteArray
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import direction_peaks, main_direction
 from occsim.walls.doors import Door, doorways_of, find_doors, leaves
-from occsim.walls.groups import doorways, without_frame, without_short, without_strays
+from occsim.walls.groups import (
+    FULL,
+    doorways,
+    without_frame,
+    without_short,
+    without_strays,
+)
 from occsim.walls.hollow import hollow_walls, oblique_walls
 from occsim.walls.params import WallParams
 from occsim.walls.raster import as_bytes, box, components, dilated, opened
 from occsim.walls.result import Certainty, Stage, WallDetection
 from occsim.walls.sheet import Sheet, find_ink, first_scale, scaled, sheet_of
-from occsim.walls.strokes import Measures, measure
-
-ALL_INK = 0.6
-"""Share of the sheet that may be ink; more is a photograph or an even sheet."""
-
-LONG_STROKE = 3.0
-"""Length, in usual walls, from which a thin stroke may be a partition."""
+from occsim.walls.strokes import DOOR, Measures, measure
 
 ALL_LONG = 0.9
 """Share of the thin strokes that must be long for all of them to be partitions."""
@@ -29,18 +29,12 @@ ALL_LONG = 0.9
 THIN_WALL = 0.2
 """Thickness of the thinnest partition among thicker walls, in usual walls."""
 
-OBLIQUE_SHARE = 0.03
+OBLIQUE_SHARE = 0.05
 """Contrast in a direction, as a share of the main one's, from which walls lie in it."""
-
-OBLIQUE_RAD = np.radians(4.0)
-"""Angle from rows and columns from which a wall is looked for on a turned sheet."""
 
 LINE_WALLS = 0.1, 0.5
 """Length of a group, and of the longest group, of a drawing of bare lines, in lengths
 of all of it: a building reaches across its drawing, furniture does not."""
-
-BLOCK = 0.9
-"""Share of the box around it that a block of ink fills."""
 
 SHIFT = 0.25
 """Change of the thinnest wall, as a share, under which sure walls stay."""
@@ -120,7 +114,7 @@ def _sheet(drawing: Drawing, params: WallParams) -> Sheet:
 
 def _ink(every: ByteArray, scale: float, params: WallParams) -> _Ink:
     """Take doors out of the ink, and find the solid walls in the rest."""
-    if np.count_nonzero(every) > ALL_INK * every.size:
+    if 2 * np.count_nonzero(every) > every.size:  # a photograph or an even sheet
         every = np.zeros_like(every)
     m = _measured(every, scale, params)
     solid = _solid(every, m)
@@ -152,7 +146,7 @@ def _solid(ink: ByteArray, m: Measures) -> ByteArray:
     if not m.thick or m.line < THIN_WALL * m.wall:
         return solid
     thin = components(ink & ~dilated(solid, box(3)))
-    long = thin.longest >= LONG_STROKE * m.wall
+    long = thin.longest >= DOOR / 2 * m.wall
     if thin.area[long].sum() < ALL_LONG * thin.area.sum():
         return solid
     # No text, no doors, no furniture: what is thin here are thin walls.
@@ -169,7 +163,7 @@ def _line_walls(ink: ByteArray) -> ByteArray:
     if groups.longest.max() < LINE_WALLS[1] * extent:
         return np.zeros_like(ink)
     # A block is a column or a shaft, however small.
-    block = groups.area >= BLOCK * groups.width * groups.height
+    block = groups.area >= FULL * groups.width * groups.height
     return ink & groups.chosen(block | (groups.longest >= LINE_WALLS[0] * extent))
 
 
@@ -182,7 +176,8 @@ def _hollow(dark: ByteArray, ink: _Ink) -> ByteArray:
     hollow = hollow_walls(ink.rest, firm, m)
     if m.gaps:
         peaks = direction_peaks(dark, OBLIQUE_SHARE)
-        for direction in [one for one in peaks if abs(one) > OBLIQUE_RAD][:2]:
+        # Peaks are told to a degree: what is nearer to 0 are the upright walls.
+        for direction in [one for one in peaks if abs(one) > np.radians(1.0)][:2]:
             hollow |= oblique_walls(ink.rest, firm, direction, m)
     return hollow
 

@@ -7,25 +7,14 @@ import numpy as np
 
 from occsim._types import BoolArray, ByteArray, FloatArray, IntArray
 from occsim.walls.raster import Components, box, components, flipped, opened
-from occsim.walls.strokes import Measures, level_lines
-
-RADIUS = 2.0, 16.0
-"""Shortest and longest leaf, in usual walls."""
-
-STRAIGHT = 1.5
-"""Length from which a stroke is straight, in usual walls: arcs bend before."""
+from occsim.walls.strokes import DOOR, Measures, level_lines
 
 STRAIGHT_SHARE = 0.03
-"""The same as a share of the longer side: thin walls say little of doors."""
+"""Length from which a stroke is straight, share of the longer side: arcs bend before;
+thin walls say little of doors."""
 
 ON_ARC = 0.7
 """Share of a stroke's pixels that must lie on the circle."""
-
-FLATTEST = 0.3
-"""Least width over length of the box around an arc, or two arcs in a row."""
-
-SPAN_RAD = np.radians(25.0), np.radians(100.0)
-"""Angle that a swing's bent part covers; its ends, along rows, are straight."""
 
 LEAF_SHARE = 0.12
 """Thickness of a leaf as drawn, as a share of its length; what is thicker is wall."""
@@ -76,15 +65,13 @@ def find_doors(
     """
     if fit == 0:
         return ()
-    length = max(STRAIGHT * m.wall, STRAIGHT_SHARE * max(ink.shape))
+    length = STRAIGHT_SHARE * max(ink.shape)
     straight = opened(thin, box(length, 1)) | opened(thin, box(1, length))
     parts = components(thin & ~straight)
-    low, high = RADIUS[0] * m.wall, RADIUS[1] * m.wall
+    low, high = DOOR / 2 * m.wall, 4 * DOOR * m.wall
     likely = (parts.longest >= low / 3) & (parts.longest <= high)
     likely &= parts.area <= 3 * m.line * parts.longest
-    # The middle of a quarter circle runs at about 45 degrees, as long as wide.
-    shorter = np.minimum(parts.width, parts.height)
-    likely &= (shorter >= FLATTEST * parts.longest) & (shorter > 2 * m.line)
+    likely &= np.minimum(parts.width, parts.height) > 2 * m.line
     doors = (_door(ink, swing, m.line) for swing in _swings(parts, likely, fit, m.line))
     return tuple(door for door in doors if door and low <= door.radius_px <= high)
 
@@ -111,31 +98,20 @@ def _swings(
     bearing = np.arctan2(y - cy[piece], x - cx[piece])
     sine, cosine = (_sum(f(bearing), piece, len(share)) for f in (np.sin, np.cos))
     middle = np.arctan2(sine, cosine)
-    apart = np.abs((bearing - middle[piece] + np.pi) % (2 * np.pi) - np.pi)
-    span = 2 * _quantile(apart, piece, 0.95, len(share))
-    good = (share >= ON_ARC) & (span >= SPAN_RAD[0]) & (span <= SPAN_RAD[1])
-    return np.asarray(np.stack([cx, cy, radius, middle], axis=1)[good])
+    swings = np.stack([cx, cy, radius, middle], axis=1)
+    return np.asarray(swings[share >= ON_ARC])
 
 
 def _strokes(
     parts: Components, likely: BoolArray
 ) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Return x, y and stroke number of the pixels of likely strokes, in order.
-
-    What may be the two arcs of a double door is cut in half, along its longer side.
-    """
+    """Return x, y and stroke number of the pixels of likely strokes, in order."""
     width = parts.labels.shape[1]
     at = np.flatnonzero(likely[parts.labels])
-    part = parts.labels.ravel()[at]
-    x, y = at % width, at // width
-    wide, high = parts.width - 1, parts.height - 1
-    longer, shorter = np.maximum(wide, high), np.minimum(wide, high)
-    double = (longer >= 1.5 * shorter) & (longer <= 3 * shorter)
-    place = np.where((wide > high)[part], x - parts.left[part], y - parts.top[part])
-    second = double[part] & (place >= (longer / 2)[part])
-    _, piece = np.unique(2 * part + second, return_inverse=True)
+    _, piece = np.unique(parts.labels.ravel()[at], return_inverse=True)
     order = np.argsort(piece, kind="stable")
-    return np.asarray(x[order], float), np.asarray(y[order], float), piece[order]
+    y, x = np.divmod(at[order].astype(np.float64), width)
+    return x, y, piece[order]
 
 
 def _sum(values: FloatArray, piece: IntArray, n: int) -> FloatArray:

@@ -6,28 +6,13 @@ from scipy.sparse.csgraph import connected_components
 
 from occsim._types import ByteArray, IntArray
 from occsim.walls.raster import box, components, dilated, filled, flipped
-from occsim.walls.strokes import Measures, column_runs
-
-DOORWAY = 8.0
-"""Widest doorway, in usual walls."""
-
-NARROWEST = 2.0
-"""Narrowest doorway, in usual walls."""
-
-LIKE_WALL = 0.35, 1.5
-"""Thickness of what joins two walls across a doorway, in usual walls."""
-
-SMALL_GROUP = 10.0
-"""Length of a group of hollow walls, in usual walls, up to which it is furniture."""
+from occsim.walls.strokes import DOOR, PART, Measures, column_runs
 
 FRAME_MARGIN = 0.06
 """Farthest that a sheet's frame is from its borders, share of the longer side."""
 
-FULL = 0.7
+FULL = 0.9
 """Share of the box around it that a column fills, and a letter does not."""
-
-SOLID_SHARE = 0.2
-"""Share of a group that must be solid for it to be kept whatever its shape."""
 
 
 def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
@@ -49,11 +34,11 @@ def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray
     groups = components(dilated(walls, box(3)) | opening)
     inked = groups.total(solid)
     shorter = np.minimum(groups.width, groups.height)
-    kept = inked >= SOLID_SHARE * np.maximum(groups.total(walls), 1.0)
+    kept = inked >= PART * np.maximum(groups.total(walls), 1.0)
     if not m.thick:
         full = inked >= FULL * groups.width * groups.height
         kept &= full & (shorter >= m.wall)
-    kept |= (groups.longest > SMALL_GROUP * m.wall) & (shorter > 2 * m.wall)
+    kept |= (groups.longest > 2 * DOOR * m.wall) & (shorter > 2 * m.wall)
     return walls & groups.chosen(kept)
 
 
@@ -104,7 +89,7 @@ def doorways(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
 def _facing(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
     """Return the openings down columns that begin at the end of a wall."""
     runs = column_runs(walls)
-    gap = np.flatnonzero((runs.value == 0) & (runs.length <= DOORWAY * m.wall))
+    gap = np.flatnonzero((runs.value == 0) & (runs.length <= 2 * DOOR * m.wall))
     gap = gap[(gap > 0) & (gap < len(runs.value) - 1)]
     gap = gap[(runs.value[gap - 1] == 1) & (runs.value[gap + 1] == 1)]
     column, top = runs.column[gap], runs.start[gap]
@@ -113,9 +98,8 @@ def _facing(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
     widths: list[float] = []
     for edge in (top, bottom - 1):
         part, side, depth = _ends(column, edge, len(walls))
-        like_wall = side >= LIKE_WALL[0] * m.wall
-        like_wall &= (side <= LIKE_WALL[1] * m.wall) & (depth <= m.wall)
-        these = like_wall[part] & (bottom - top >= NARROWEST * m.wall)
+        like_wall = (np.abs(side - m.wall) <= m.wall / 2) & (depth <= m.wall)
+        these = like_wall[part] & (bottom - top >= DOOR / 2 * m.wall)
         mask |= filled(walls.shape, top[these], bottom[these], column[these])
         _, first = np.unique(part[these], return_index=True)
         widths += (bottom - top)[these][first].tolist()

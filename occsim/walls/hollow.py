@@ -23,32 +23,17 @@ from occsim.walls.raster import (
 )
 from occsim.walls.sheet import turned_by
 from occsim.walls.strokes import (
+    DOOR,
+    PART,
     ROOM,
     Measures,
     Runs,
     column_runs,
-    gap_lengths,
     level_lines,
 )
 
-SURE_SHARE = 0.3
-"""Share of a strip that must have room beside it; the rest may hold furniture."""
-
-SEED_LENGTH = 5.0
+SEED_LENGTH = 6.0
 """Length, in usual walls, from which a strip with room on both sides is a wall."""
-
-BESIDE_SHARE = 0.35
-"""Share of a strip's length along a wall from which it is furniture beside it."""
-
-JOINT = 1.5
-"""What corners and crossing lines leave open of a wall's end, in usual walls."""
-
-AHEAD = 4.0
-"""How far ahead a wall may go on in line with itself, in usual walls."""
-
-OBLIQUE_SHARE = 0.05
-"""Length of hollow walls at another angle, as a share of those along rows and columns,
-from which they are walls and not hatching."""
 
 PANES = 2
 """Lines between the faces of a window; fewer are sills, doors or furniture."""
@@ -125,25 +110,13 @@ def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
     every = [_strips(ink, m, False), _strips(flipped(ink), m, True)]
     found = [s.parts.chosen(_seeds(s, m)) for s in every]
     walls = _with_ends(found, ink, m)
-    # Walls that hang on walls that hang on seeds; the commonest kind first.
-    for _ in range(3):
-        before = np.count_nonzero(walls)
-        for kind in [*((gap,) for gap in m.gaps), ()]:
-            sure = walls | solid
-            if not sure.any():
-                return walls
-            firm = [one | solid for one in found]
-            more = [
-                s.parts.chosen(
-                    _joined(s, sure, firm, m) & (_one_of(s.width, kind) | (not kind))
-                )
-                for s in every
-            ]
-            if any(one.any() for one in more):
-                found = [a | b for a, b in zip(found, more, strict=True)]
-                walls = _with_ends(found, ink, m)
-        if np.count_nonzero(walls) == before:
+    for _ in range(3):  # walls that hang on walls that hang on seeds
+        sure, firm = walls | solid, [one | solid for one in found]
+        more = [s.parts.chosen(_joined(s, sure, firm, m)) for s in every]
+        if not any(one.any() for one in more):
             break
+        found = [a | b for a, b in zip(found, more, strict=True)]
+        walls = _with_ends(found, ink, m)
     return walls | (dilated(walls, box(2 * m.line + 3)) & ink)
 
 
@@ -152,12 +125,6 @@ def oblique_walls(
 ) -> ByteArray:
     """Return the hollow walls along another direction, and across it."""
     turned, turn = turned_by(ink * np.uint8(255), direction_rad)
-    oblique, upright = (
-        gap_lengths(view, SEED_LENGTH * m.wall, m.line)[list(m.gaps)].sum()
-        for view in (as_bytes(turned > 127), ink)
-    )
-    if oblique < OBLIQUE_SHARE * upright:
-        return np.zeros_like(ink)
     solid, _ = turned_by(solid * np.uint8(255), direction_rad)
     walls = hollow_walls(as_bytes(turned > 127), as_bytes(solid > 127), m)
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
@@ -167,7 +134,7 @@ def oblique_walls(
 
 def _seeds(s: Strips, m: Measures) -> BoolArray:
     """Which strips are walls by themselves."""
-    return (s.sure >= SURE_SHARE) & _long(s, m) & ~_rare(s, m)
+    return (s.sure >= PART) & _long(s, m) & ~_rare(s, m)
 
 
 def _long(s: Strips, m: Measures) -> BoolArray:
@@ -187,19 +154,14 @@ def _joined(
     from a wall in line with them; across a line they may only touch what is surely
     wall.
     """
-    line, joint, ahead = 4 * m.line + 1, 4 * m.wall, 2 * AHEAD * m.wall
-    joined = (s.likely >= SURE_SHARE) & (s.length >= m.wall)
+    line, ahead = 4 * m.line + 1, 2 * DOOR * m.wall
+    joined = (s.likely >= PART) & (s.length >= m.wall)
     joined &= ~_rare(s, m) | _long(s, m)
-    joined &= s.touched(_grown(walls, s, across=line)) <= BESIDE_SHARE * s.length
+    joined &= s.touched(_grown(walls, s, across=line)) <= PART * s.length
     in_line, crossing = found[s.upright], found[not s.upright]
     near = dilated(walls, box(3)) | _grown(in_line, s, along=ahead)
-    near |= _grown(crossing, s, along=line) | _grown(crossing, s, across=line)
-    reached = s.touched(near) > 0
-    # What stands in the corner of a room may hide where a long wall meets another.
-    reached |= _long(s, m) & (
-        s.touched(_grown(crossing, s, along=joint, across=line)) > 0
-    )
-    return joined & reached
+    near |= _grown(crossing, s, along=line)
+    return joined & (s.touched(near) > 0)
 
 
 def _grown(
@@ -301,8 +263,8 @@ def _one_of(lengths: IntArray | FloatArray, usual: tuple[int, ...]) -> BoolArray
 
 def _with_ends(found: list[ByteArray], ink: ByteArray, m: Measures) -> ByteArray:
     """Return strips, gone on to the next line across: corners and junctions."""
-    level = closed(found[0], box(JOINT * m.wall, 1))
-    upright = closed(found[1], box(1, JOINT * m.wall))
+    level = closed(found[0], box(DOOR / 2 * m.wall, 1))
+    upright = closed(found[1], box(1, DOOR / 2 * m.wall))
     level_ends = flipped(_ends(flipped(level), flipped(ink), m))
     return level | upright | level_ends | _ends(upright, ink, m)
 
@@ -313,7 +275,7 @@ def _ends(walls: ByteArray, ink: ByteArray, m: Measures) -> ByteArray:
     # Columns without a wall have no ends; most of the sheet is left out.
     used = np.flatnonzero(walls.any(axis=0))
     runs = column_runs(kind[:, used])
-    rest = np.flatnonzero((runs.value == 1) & (runs.length <= JOINT * m.wall))
+    rest = np.flatnonzero((runs.value == 1) & (runs.length <= DOOR / 2 * m.wall))
     rest = rest[(rest > 0) & (rest < len(runs.value) - 1)]
     rest = rest[(runs.value[rest - 1] == 3) | (runs.value[rest + 1] == 3)]
     top = runs.start[rest]

@@ -8,9 +8,7 @@ import numpy as np
 from occsim.imaging import Drawing
 from occsim.walls.detect import detect_walls
 from occsim.walls.result import WallDetection
-
-DOOR_WALLS = 4.0
-"""Length of a door leaf, in thicknesses of the walls around it: 0.9 m and 0.2 m."""
+from occsim.walls.strokes import DOOR
 
 SPREAD = 0.15
 """Share by which doors of one building may differ in length from their median."""
@@ -76,7 +74,7 @@ def propose_scale(found: Drawing | WallDetection) -> ScaleProposal | None:
     if not np.isfinite(sure.wall_px):
         return None
     return ScaleProposal(
-        door_px=DOOR_WALLS * sure.wall_px,
+        door_px=DOOR * sure.wall_px,
         source=ScaleSource.WALL_THICKNESS,
         confidence=0.2,
     )

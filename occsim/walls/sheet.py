@@ -23,8 +23,9 @@ WINDOW_SHARE = 1 / 8
 SMALL_SIDE_PX = 200
 """Shorter side to which a sheet is reduced to find its paper, px."""
 
-DARKEST_PAPER = 25
-"""Brightness below which a window holds no paper, of 255: it lies in a black block."""
+FAINTEST = 20
+"""Least difference from black of paper, and from paper of ink, of 255: what is below is
+a black block, or grain and compression noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +192,7 @@ def darkness(gray: ByteArray, window_px: float = 0.0) -> ByteArray:
         gray, small = 255 - gray, 255 - small
     window = max(round(window_px / factor or WINDOW_SHARE * min(small.shape)), 3)
     paper = cv2.morphologyEx(small, cv2.MORPH_CLOSE, box(window))
-    paper = np.maximum(cv2.blur(paper, (5, 5)), DARKEST_PAPER)
+    paper = np.maximum(cv2.blur(paper, (5, 5)), FAINTEST)
     paper = cv2.resize(paper, gray.shape[::-1])
     return 255 - np.asarray(cv2.divide(gray, paper, scale=255), dtype=np.uint8)
 
@@ -214,9 +215,5 @@ def find_ink(dark: ByteArray, level: float = 0.0) -> ByteArray:
         otsu, _ = cv2.threshold(dark, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
         inked = dark[dark > otsu]
         half = 0.4 * float(np.median(inked)) if inked.size else 0.0
-        level = max(otsu, half, FAINTEST_INK) / 255
+        level = max(otsu, half, FAINTEST) / 255
     return as_bytes(dark > 255 * level)
-
-
-FAINTEST_INK = 15
-"""Darkness below which nothing is ink, of 255: grain and compression noise."""

@@ -24,24 +24,16 @@ THINNEST_WALL = 0.2, 0.6
 BLOT = 3.5
 """Thickness from which ink is more than two lines that touch, in lines."""
 
-THICK_SHARE = 0.1
-"""Area of thick strokes, as a share of all, from which they are the walls."""
+DOOR = 4.0
+"""Length of a usual door leaf, in usual walls: 0.9 m and 0.2 m."""
 
-LITTLE = 0.01
-"""Share of the commonest stroke's length below which a thickness is chance."""
+PART = 0.3
+"""Share from which a part tells what the whole is: of a group that is solid, of a strip
+with room or a wall beside it, of hollow walls beside all lines or all walls, of a gap
+beside the commonest one. More than that may be hidden by furniture."""
 
 ROOM = 1.5
 """Least room beyond a hollow wall's faces, in its own gap: treads and tiles have 1."""
-
-HOLLOW_SHARE = 0.2
-"""Area of hollow walls, as a share of the ink in lines, from which a drawing has them:
-where all strokes are alike, these may be walls, with a narrow room here and there."""
-
-NARROWEST_GAP = 0.8
-"""Narrowest gap between the faces of a wall, in lines."""
-
-BOTH_SHARE = 0.5
-"""Length of hollow walls, as a share of all walls', from which a drawing has them."""
 
 LONG_SHARE = 0.08
 """Length from which lines count as the faces of walls, share of the longer side."""
@@ -50,10 +42,8 @@ KINDS_SHARE = 0.77
 """Share of the two commonest gaps from which gaps are walls' and not chance."""
 
 RARE_SHARE = 0.1
-"""The same for gaps that are a wall's where other walls hold them."""
-
-USUAL_SHARE = 0.3
-"""Length of a gap's kind, as a share of the commonest one's, from which it is usual."""
+"""Share of all thick strokes, or of the commonest kind of gap, from which a kind is no
+chance: walls if they are thick, and if narrow gaps those that other walls hold."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,11 +121,10 @@ def thinnest_solid(lengths: FloatArray, line: int, wall: float) -> int:
         Thickness of most walls, px.
     """
     low = start = max(line + 1, int(THINNEST_WALL[0] * wall))
-    chance = LITTLE * lengths.max()
     for px in range(start, round(THINNEST_WALL[1] * wall) + 1):
         if lengths[px] < lengths[low]:
             low = px
-        elif lengths[px] > RISE * lengths[low] + chance:
+        elif lengths[px] > RISE * lengths[low]:
             return low + 1
     return low
 
@@ -258,16 +247,16 @@ def measure(ink: ByteArray) -> Measures:
     line = commonest_line(lengths)
     area = lengths * np.arange(len(lengths))
     hollow = _likely_gaps(ink, line)
-    between = _common_only(hollow) * (np.arange(len(hollow)) + 2 * line)
+    between = hollow * (np.arange(len(hollow)) + 2 * line)
     thick = area.copy()
     thick[: 2 * line + 1] = 0.0
     least = between.sum()
-    if thick.sum() >= THICK_SHARE * area.sum() and (
+    if thick.sum() >= RARE_SHARE * area.sum() and (
         not least or _long_solid(ink, line) >= least
     ):
         return _of_solid(lengths, thick, hollow, line)
     alike = area[round(0.8 * line) : round(1.2 * line) + 1].sum()
-    if between.sum() >= HOLLOW_SHARE * alike:
+    if between.sum() >= PART * alike:
         wall = half_way(between) + 2 * line
         return _of(line, round(BLOT * line), wall, hollow)
     wall = half_way(area)
@@ -282,17 +271,10 @@ def _long_solid(ink: ByteArray, line: int) -> int:
     return int(np.count_nonzero(long))
 
 
-def _common_only(hollow: FloatArray) -> FloatArray:
-    """Return the lengths of usual gaps and their neighbours, zero for all others."""
-    near = np.zeros_like(hollow)
-    near[list(usual(hollow, USUAL_SHARE))] = 1.0
-    return hollow * (with_neighbours(near) > 0)
-
-
 def _likely_gaps(ink: ByteArray, line: int) -> FloatArray:
     """Return the lengths of gaps, none where they are of too many kinds."""
     hollow = gap_lengths(ink, LONG_SHARE * max(ink.shape), line)
-    hollow[: max(round(NARROWEST_GAP * line), 2)] = 0.0
+    hollow[:2] = 0.0
     return hollow if kinds_share(hollow) >= KINDS_SHARE else np.zeros_like(hollow)
 
 
@@ -302,9 +284,9 @@ def _of_solid(
     """Return the measures of a drawing of solid walls, some perhaps hollow."""
     wall = half_way(thick)
     solid = thinnest_solid(lengths, line, wall)
-    both = with_neighbours(hollow).max() >= BOTH_SHARE * lengths[solid:].sum()
+    both = with_neighbours(hollow).max() >= PART * lengths[solid:].sum()
     gaps = hollow if both else None
-    return _of(line, solid, wall, gaps, thick=usual(thick, USUAL_SHARE))
+    return _of(line, solid, wall, gaps, thick=usual(thick, PART))
 
 
 def _of(
@@ -317,7 +299,7 @@ def _of(
     bare: bool = False,
 ) -> Measures:
     """Return measures with the gaps of some lengths."""
-    gaps = usual(hollow, USUAL_SHARE) if hollow is not None else ()
+    gaps = usual(hollow, PART) if hollow is not None else ()
     every = usual(hollow, RARE_SHARE) if hollow is not None else ()
     return Measures(
         line=line,
