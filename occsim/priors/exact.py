@@ -241,7 +241,11 @@ def _states(
     if bottom <= 0.0 <= top:
         first[tie], last[tie] = min(first[tie], 0.0), max(last[tie], 0.0)
     real = first <= last
-    p_low, p_high = np.clip(p_free_from_log_odds([first, last]) / scale, low, high)
+    # All values whose logit is rounded to the bound: nearly half a step on either side.
+    # A tie that is attained alone stays one value.
+    half = 0.49 * LATTICE_NATS * (first < last)
+    bounds = p_free_from_log_odds([first - half, last + half]) / scale
+    p_low, p_high = np.clip(bounds, low, high)
     p_low[0], p_high[-1] = low, high
     return _States(p_low, p_high, counts[0], counts[1]).take(real)
 
