@@ -379,6 +379,19 @@ def test_another_resolution_gives_the_same_walls(kind, factor):
     assert compare_masks(found, true > 127).f1 >= 0.97
 
 
+def test_hollow_walls_at_another_angle_are_found():
+    """Three of them, each 14 px thick, at 60 degrees in a house of upright ones."""
+    along = 110 * np.array([1.0, np.sqrt(3.0)])
+    oblique = np.zeros((760, 1000), np.uint8)
+    for x in (150, 220, 290):
+        end = x + int(along[0]), 404 + int(along[1])
+        cv2.line(oblique, (x, 404), end, 1, 14)
+    upright = hollow_house()
+    lines = faces(upright | (oblique > 0))
+    found = detect_walls(Drawing(rgb=black_on(lines))).mask
+    assert found[(oblique > 0) & ~upright].mean() > 0.95
+
+
 @pytest.mark.parametrize("factor", [0.33, 0.37, 0.42, 0.5, 0.62])
 def test_hollow_walls_with_axes_and_kitchens_are_found_at_any_size(factor):
     """Recall asked of a drafted floor; its lines are 1 to 2 px thick here."""

@@ -21,7 +21,10 @@ from occsim.walls.params import WallParams
 from occsim.walls.raster import as_bytes, box, components, dilated, opened
 from occsim.walls.result import Certainty, Stage, WallDetection
 from occsim.walls.sheet import Sheet, find_ink, first_scale, scaled, sheet_of
-from occsim.walls.strokes import DOOR, Measures, measure
+from occsim.walls.strokes import Measures, measure
+
+LONG_STROKE = 3.0
+"""Length, in usual walls, from which a thin stroke may be a partition."""
 
 ALL_LONG = 0.9
 """Share of the thin strokes that must be long for all of them to be partitions."""
@@ -146,7 +149,7 @@ def _solid(ink: ByteArray, m: Measures) -> ByteArray:
     if not m.thick or m.line < THIN_WALL * m.wall:
         return solid
     thin = components(ink & ~dilated(solid, box(3)))
-    long = thin.longest >= DOOR / 2 * m.wall
+    long = thin.longest >= LONG_STROKE * m.wall
     if thin.area[long].sum() < ALL_LONG * thin.area.sum():
         return solid
     # No text, no doors, no furniture: what is thin here are thin walls.

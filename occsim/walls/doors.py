@@ -50,18 +50,9 @@ class Door:
 def find_doors(
     ink: ByteArray, thin: ByteArray, m: Measures, fit: float
 ) -> tuple[Door, ...]:
-    """Return the doors of an upright sheet.
+    """Return the doors of an upright sheet, from the thin part of its ink.
 
-    Parameters
-    ----------
-    ink : ndarray of uint8, shape (h, w)
-        Ink.
-    thin : ndarray of uint8, shape (h, w)
-        What of it is no solid wall.
-    m : Measures
-        Lengths of the drawing.
-    fit : float
-        How far an arc may stray from a circle, share of its radius; 0 finds none.
+    An arc may stray from a circle by the share `fit` of its radius; 0 finds none.
     """
     if fit == 0:
         return ()
@@ -70,7 +61,6 @@ def find_doors(
     parts = components(thin & ~straight)
     low, high = DOOR / 2 * m.wall, 4 * DOOR * m.wall
     likely = (parts.longest >= low / 3) & (parts.longest <= high)
-    likely &= parts.area <= 3 * m.line * parts.longest
     likely &= np.minimum(parts.width, parts.height) > 2 * m.line
     doors = (_door(ink, swing, m.line) for swing in _swings(parts, likely, fit, m.line))
     return tuple(door for door in doors if door and low <= door.radius_px <= high)
@@ -190,11 +180,10 @@ def leaves(ink: ByteArray, doors: tuple[Door, ...], m: Measures) -> ByteArray:
     if not doors:
         return mask
     usual = float(np.median([door.radius_px for door in doors]))
-    thick = opened(ink, box(LEAF_SHARE * usual + m.line))
     # A leaf that stands along a wall must not take the wall's face with it.
     longer = level_lines(ink, LONGER * usual)
     longer |= flipped(level_lines(flipped(ink), LONGER * usual))
-    return mask & ink & ~thick & ~longer
+    return mask & ink & ~longer
 
 
 def doorways_of(shape: tuple[int, int], doors: tuple[Door, ...]) -> ByteArray:

@@ -20,15 +20,6 @@ def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray
 
     Solid pieces stay where walls are solid, whatever they are: nothing that is plainly
     a wall may go. Where walls are hollow, what is solid is a column or a blot.
-
-    Parameters
-    ----------
-    walls : ndarray of uint8, shape (h, w)
-        All walls.
-    solid : ndarray of uint8, shape (h, w)
-        Those that are solid ink.
-    m : Measures
-        Lengths of the drawing.
     """
     opening, _ = doorways(walls, m)
     groups = components(dilated(walls, box(3)) | opening)
@@ -37,7 +28,7 @@ def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray
     kept = inked >= PART * np.maximum(groups.total(walls), 1.0)
     if not m.thick:
         full = inked >= FULL * groups.width * groups.height
-        kept &= full & (shorter >= m.wall)
+        kept &= full
     kept |= (groups.longest > 2 * DOOR * m.wall) & (shorter > 2 * m.wall)
     return walls & groups.chosen(kept)
 
@@ -73,14 +64,7 @@ def without_short(walls: ByteArray, shortest_px: float) -> ByteArray:
 
 
 def doorways(walls: ByteArray, m: Measures) -> tuple[ByteArray, list[float]]:
-    """Return the openings between walls that face each other end-on, and their widths.
-
-    Returns
-    -------
-    mask : ndarray of uint8, shape (h, w)
-    widths_px : list of float
-        Of those that are as wide as doors are.
-    """
+    """Return the openings between walls that face each other, and widths, px."""
     level, some = _facing(flipped(walls), m)
     upright, others = _facing(walls, m)
     return flipped(level) | upright, some + others

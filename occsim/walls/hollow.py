@@ -91,21 +91,9 @@ class Strips:
 
 
 def hollow_walls(ink: ByteArray, solid: ByteArray, m: Measures) -> ByteArray:
-    """Return the hollow and hatched walls, and the windows, along rows and columns.
+    """Return the hollow and hatched walls, and the windows, with their faces.
 
-    Parameters
-    ----------
-    ink : ndarray of uint8, shape (h, w)
-        Ink of an upright sheet.
-    solid : ndarray of uint8, shape (h, w)
-        Solid walls, on which hollow ones and windows may hang.
-    m : Measures
-        Lengths of the drawing.
-
-    Returns
-    -------
-    ndarray of uint8, shape (h, w)
-        Walls with their faces.
+    They lie along rows and columns of an upright sheet, and may hang on solid walls.
     """
     every = [_strips(ink, m, False), _strips(flipped(ink), m, True)]
     found = [s.parts.chosen(_seeds(s, m)) for s in every]
@@ -161,7 +149,10 @@ def _joined(
     in_line, crossing = found[s.upright], found[not s.upright]
     near = dilated(walls, box(3)) | _grown(in_line, s, along=ahead)
     near |= _grown(crossing, s, along=line)
-    return joined & (s.touched(near) > 0)
+    reached = s.touched(near) > 0
+    # What stands in the corner of a room may hide where a long wall meets another.
+    corner = _grown(crossing, s, along=DOOR * m.wall, across=line)
+    return joined & (reached | (_long(s, m) & (s.touched(corner) > 0)))
 
 
 def _grown(
@@ -197,15 +188,10 @@ def _strips(view: ByteArray, m: Measures, upright: bool) -> Strips:
 def _pairs(
     runs: Runs, m: Measures, lines_between: int
 ) -> tuple[IntArray, IntArray, IntArray, IntArray]:
-    """Return the pairs of lines at a usual distance in each column.
+    """Return the pairs of lines at a usual distance: rows, column, and sides with room.
 
-    Returns
-    -------
-    top, bottom : ndarray of int64, shape (K,)
-        First row between the lines, and the row after the last.
-    column : ndarray of int64, shape (K,)
-    rooms : ndarray of int64, shape (K,)
-        On how many sides there is more room beyond the lines than between them.
+    The rows are the first between the lines and the one after the last; a side has
+    room where there is more of it beyond the lines than between them.
     """
     step = 2 * (lines_between + 1)
     first = np.flatnonzero(runs.value[1 : -step - 1] == 1) + 1
@@ -213,7 +199,7 @@ def _pairs(
     whole = (runs.column[first] == runs.column[last]) & (runs.value[last] == 1)
     thin = runs.length <= 3 * m.line
     # Furniture that stands against a wall hides one of its faces, not both.
-    whole &= (thin[first] & thin[last]) if lines_between else thin[first] | thin[last]
+    whole &= thin[first] | thin[last]
     for line in range(2, step, 2):
         whole &= runs.length[first + line] <= 2 * m.line
     first, last = first[whole], last[whole]
@@ -227,8 +213,7 @@ def _pairs(
     widest = np.max([runs.length[first + gap] for gap in range(1, step, 2)], axis=0)
     rooms = np.zeros(len(first), dtype=np.int64)
     for beyond in (first - 1, last + 1):
-        roomy = runs.length[beyond] >= ROOM * widest + m.line
-        rooms += roomy | (runs.value[beyond] != 0)
+        rooms += runs.length[beyond] >= ROOM * widest + m.line
     return top, bottom, runs.column[first], rooms
 
 

@@ -54,11 +54,8 @@ class Sheet:
         height, width = self.shape
         levels = mask * np.uint8(255)
         if self.turn is not None:
-            # Blurred as much as a reduction by area would do.
-            reach = max(round(self.scale), 1)
-            smooth = cv2.blur(levels, (reach, reach), anchor=(0, 0))
             flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-            back = cv2.warpAffine(smooth, self.turn, (width, height), flags=flags)
+            back = cv2.warpAffine(levels, self.turn, (width, height), flags=flags)
             return np.asarray(back) > 127
         if levels.shape != self.shape:
             how = cv2.INTER_AREA if self.scale > 1 else cv2.INTER_LINEAR
@@ -90,19 +87,7 @@ def first_scale(shape: tuple[int, int]) -> float:
 
 
 def scaled(gray: ByteArray, scale: float) -> ByteArray:
-    """Return a brightness picture at another size, dark lines kept.
-
-    Parameters
-    ----------
-    gray : ndarray of uint8, shape (H, W)
-        Brightness.
-    scale : float
-        New pixels along an old one.
-
-    Returns
-    -------
-    ndarray of uint8, shape (h, w)
-    """
+    """Return a brightness picture at another size, dark lines kept."""
     # A line of one pixel would leave a tenth of its ink in a reduction by ten.
     thicker = round(0.5 / scale)
     if thicker > 1:
@@ -119,20 +104,10 @@ def sheet_of(
     tilt_rad: float,
     window_px: float,
 ) -> Sheet:
-    """Return the sheet of a drawing.
+    """Return the sheet of a drawing of some shape, from its brightness at the scale.
 
-    Parameters
-    ----------
-    small : ndarray of uint8, shape (h, w)
-        Its brightness at the working size.
-    shape : tuple of int
-        Height and width of the drawing, px.
-    scale : float
-        Working pixels along a pixel of the drawing.
-    tilt_rad : float
-        Direction of its lines, from +x towards +y; they are turned upright.
-    window_px : float
-        Window over which the paper is followed, px of the drawing; 0 for automatic.
+    Its lines, tilted from +x towards +y, are turned upright. The window in which the
+    paper is followed is px of the drawing; 0 for automatic.
     """
     dark = darkness(small, window_px * scale)
     if abs(tilt_rad) <= LEAST_TILT_RAD:
@@ -146,14 +121,7 @@ def sheet_of(
 
 
 def turned_by(image: ByteArray, tilt_rad: float) -> tuple[ByteArray, FloatArray]:
-    """Turn a picture back by a tilt, on a canvas that holds all of it.
-
-    Returns
-    -------
-    turned : ndarray of uint8
-    turn : ndarray of float64, shape (2, 3)
-        From pixel indices of the picture to those of the turned one.
-    """
+    """Turn a picture back by a tilt, on a canvas that holds it; also its affine."""
     height, width = image.shape
     middle = width / 2 - 0.5, height / 2 - 0.5
     turn = cv2.getRotationMatrix2D(middle, np.degrees(tilt_rad), 1.0)
@@ -172,18 +140,6 @@ def darkness(gray: ByteArray, window_px: float = 0.0) -> ByteArray:
 
     The paper is followed over the sheet, so that shadows, tinted paper and the colour
     of a room are paper. Light lines on dark paper are inverted first.
-
-    Parameters
-    ----------
-    gray : ndarray of uint8, shape (h, w)
-        Brightness.
-    window_px : float, default 0
-        Window over which the paper is followed; 0 for automatic.
-
-    Returns
-    -------
-    ndarray of uint8, shape (h, w)
-        0 for paper, 255 for black.
     """
     factor = max(1.0, min(gray.shape) / SMALL_SIDE_PX)
     size = [max(round(side / factor), 1) for side in gray.shape[::-1]]

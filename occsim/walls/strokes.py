@@ -110,15 +110,6 @@ def thinnest_solid(lengths: FloatArray, line: int, wall: float) -> int:
 
     Between the lines and the walls there is little of any thickness. Going up from
     the lines, the bottom of that valley is where strokes become walls.
-
-    Parameters
-    ----------
-    lengths : ndarray of float64
-        From `stroke_lengths`.
-    line : int
-        Thickness of lines, px.
-    wall : float
-        Thickness of most walls, px.
     """
     low = start = max(line + 1, int(THINNEST_WALL[0] * wall))
     for px in range(start, round(THINNEST_WALL[1] * wall) + 1):
@@ -169,24 +160,10 @@ def level_lines(ink: ByteArray, length_px: float) -> ByteArray:
 
 
 def gap_lengths(ink: ByteArray, length_px: float, line_px: int) -> FloatArray:
-    """Return for how long two lines run beside each other at each distance.
+    """Return for how long two lines run beside each other at each distance, px.
 
     Only lines with more room beyond them than between them count, which treads, tiles
     and panes have not.
-
-    Parameters
-    ----------
-    ink : ndarray of uint8, shape (h, w)
-        Ink.
-    length_px : float
-        Length from which a line counts, px.
-    line_px : int
-        Thickness of lines, px.
-
-    Returns
-    -------
-    ndarray of float64, shape (THICKEST_PX + 1,)
-        Length for each width of gap, px.
     """
     total = np.zeros(THICKEST_PX + 1)
     for view in (ink, np.ascontiguousarray(ink.T)):
@@ -196,10 +173,8 @@ def gap_lengths(ink: ByteArray, length_px: float, line_px: int) -> FloatArray:
         for side in (-1, 1):
             gap = gap[runs.value[gap + side] == 1]
             gap = gap[runs.length[gap + side] <= 3 * line_px]
-            gap = gap[runs.length[gap + side] >= line_px / 2]
             beyond = gap + 2 * side
-            room = runs.length[beyond] >= ROOM * runs.length[gap] + line_px
-            gap = gap[room | (runs.value[beyond] != 0)]
+            gap = gap[runs.length[beyond] >= ROOM * runs.length[gap] + line_px]
         total += np.bincount(runs.length[gap], minlength=THICKEST_PX + 1)
     return total
 
@@ -220,15 +195,7 @@ def kinds_share(lengths: FloatArray) -> float:
 
 
 def usual(lengths: FloatArray, share: float) -> tuple[int, ...]:
-    """Return the thicknesses that, with their neighbours, are common; most first.
-
-    Parameters
-    ----------
-    lengths : ndarray of float64
-        Length of each thickness, px.
-    share : float
-        Length from which a thickness is common, as a share of the commonest one's.
-    """
+    """Return the thicknesses that, with their neighbours, are common; most first."""
     near = with_neighbours(lengths)
     common = (near >= share * near.max()) & (lengths > near / 4)
     found = np.flatnonzero(common)
@@ -236,13 +203,7 @@ def usual(lengths: FloatArray, share: float) -> tuple[int, ...]:
 
 
 def measure(ink: ByteArray) -> Measures:
-    """Return the lengths of a drawing.
-
-    Parameters
-    ----------
-    ink : ndarray of uint8, shape (h, w)
-        Its ink.
-    """
+    """Return the lengths of a drawing."""
     lengths = stroke_lengths(ink)
     line = commonest_line(lengths)
     area = lengths * np.arange(len(lengths))
