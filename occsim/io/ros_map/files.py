@@ -283,7 +283,7 @@ def _image(ros_map: RosMap, mode: MapMode, ending: str) -> bytes:
 def _levels(ros_map: RosMap, mode: MapMode) -> ByteArray:
     values = ros_map.values
     if mode is MapMode.RAW:
-        levels = np.where(values < 0, 255, values)
+        levels = np.where(values < 0, 255, values.astype(np.int16))
     elif mode is MapMode.SCALE:
         levels = np.rint((100.0 - np.maximum(values, 0)) * 2.55)
     else:
