@@ -129,14 +129,15 @@ def test_home_says_that_the_wrong_drawing_beats_the_right_one_if_counted_again(r
 
 HOME_COUNTS = {
     "none": (572, 817, 1, 0, 442, 0),
-    "own": (768, 817, 1, 441, 442, 6),
+    "own": (768, 817, 1, 439, 442, 6),
     "other": (544, 817, 2, 143, 442, 594),
 }
 """Looked at: found, of, false; not looked at: the same. None and another's are those of
 the lesson's design, computed with release 0.1; its own had 769, 8 and 442, 19 then: the
-detection of walls took stairs for walls."""
-HOME_F2 = {"none": (74.5, 74.5), "own": (95.1, 64.0), "other": (71.3, 87.6)}
-"""Per cent, once and taken off at every reading; from the same design."""
+detection of walls took stairs for walls. Its own follow the detection of today."""
+HOME_F2 = {"none": (74.5, 74.5), "own": (95.1, 63.6), "other": (71.3, 87.6)}
+"""Per cent, once and taken off at every reading; from the same design, its own as
+above."""
 
 
 @pytest.fixture(scope="module", params=zip(HOME_COUNTS, HOME_COLUMNS, strict=True))
