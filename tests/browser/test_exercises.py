@@ -26,5 +26,8 @@ def test_what_was_solved_outlives_a_reload(page, app_url):
     page.get_by_text("Solved.").wait_for()
     page.get_by_role("link", name="Exercises").click()
     page.get_by_text("1 of 22 solved").wait_for()
+    page.wait_for_function(
+        "(localStorage.getItem('occsim.progress') ?? '').includes('true')"
+    )
     page.goto(f"{app_url}/Exercises")  # a new session of the server
     page.get_by_text("1 of 22 solved").wait_for()

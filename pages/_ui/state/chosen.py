@@ -57,8 +57,10 @@ def prepare(path: str) -> None:
 
 def _open_page_drawing(path: str) -> None:
     """Show the drawing that a page opens with, unless the student chose something."""
-    is_untouched = not st.session_state.chosen and settings() == defaults(choice())
-    if is_untouched:
+    state = st.session_state
+    has_work = state.own is not None or state.past or state.future
+    is_new = not state.chosen and not has_work and settings() == defaults(choice())
+    if is_new:
         _show(OPENING_OF.get(path, OPENING))
 
 
