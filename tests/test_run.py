@@ -36,6 +36,11 @@ def test_other_walls_change_the_prior_and_share_readings_and_truth():
     np.testing.assert_array_equal(again.wall_cells, run.wall_cells)
 
 
+def test_a_run_with_its_own_walls_stays_itself_with_all_that_was_computed():
+    run = run_of(C)
+    assert run.with_prior_mask(None) is run
+
+
 def test_surfaces_and_fronts_are_those_of_the_other_walls():
     run = run_of(C)
     run.surface(), run.front()

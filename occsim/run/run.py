@@ -101,6 +101,8 @@ class MappingRun:
         TypeError, ParameterError
             Where the mask is not bool, or not of the drawing's size.
         """
+        if mask is None and self.prior_mask is None:
+            return self  # and with it all that was computed
         other = replace(self, log=self.evidence, prior_mask=mask)
         vars(other)["truth_cells"] = self.truth_cells
         return other
