@@ -16,11 +16,6 @@ LEGENDS = {
 }
 
 
-def points(value: float) -> str:
-    """A difference of shares in percentage points; a dash where it is undefined."""
-    return DASH if value != value else f"{100 * value:+.1f}"
-
-
 def tolerance(value: float) -> str:
     """A tolerance of scores in percentage points; a dash where it is undefined."""
     return DASH if value != value else f"{100 * value:.1f} points"
@@ -32,14 +27,6 @@ def score_line(scores: Scores) -> str:
         f"Precision **{percent(scores.precision)}**, recall "
         f"**{percent(scores.recall)}**, F2 **{percent(scores.f2)}**"
     )
-
-
-def difference_line(scores: Scores, reference: Scores) -> str:
-    """Differences of the scores from those of another map."""
-    return ", ".join(
-        f"{name} {points(getattr(scores, name) - getattr(reference, name))}"
-        for name in ("precision", "recall", "f2")
-    ).replace("f2", "F2")
 
 
 def pair_text(p_wall: float, p_space: float) -> str:
@@ -62,13 +49,3 @@ def map_of(run: Run, prior: Prior, title: str, kind: Picture) -> None:
         alt=f"Map of {run.building.title}; {title}",
     )
     st.markdown(score_line(run.scores(prior)))
-
-
-def against_uninformative(run: Run, prior: Prior) -> None:
-    """Differences of a map's scores from those of the map without a drawing."""
-    if prior == Prior.uninformative():
-        st.caption("The map without a drawing.")
-        return
-    reference = run.scores(Prior.uninformative())
-    change = difference_line(run.scores(prior), reference)
-    st.caption(f"Against the uninformative map, in points: {change}.")
