@@ -221,21 +221,24 @@ def calibrated(of: Run) -> Prior:
     """The calibrated prior; estimated from other drawings where there is no truth."""
     if of.building.truth is None:
         return estimated(of)
-    p_free_wall, p_free_space = of.mapped.calibrated
-    return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+    return _stated(*of.mapped.calibrated)
 
 
 def estimated(of: Run) -> Prior:
     """The calibrated prior as the reference drawings give it, this one left out."""
     others = [run.mapped for run in other_drawings(of)]
     counted = [(other.wall_cells, other.truth_cells) for other in others]
-    p_free_wall, p_free_space = estimated_prior(counted)
-    return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
+    return _stated(*estimated_prior(counted))
 
 
 def best_in_bits(of: Run, rule: UpdateRule, region: Region = Region.ALL) -> Prior:
     """The prior whose final map has the least log loss over a region."""
     p_free_wall, p_free_space, _ = of.mapped.best_in_bits(rule, region)
+    return _stated(p_free_wall, p_free_space)
+
+
+def _stated(p_free_wall: float, p_free_space: float) -> Prior:
+    """The prior of two probabilities that are not scaled."""
     return Prior(p_wall=p_free_wall, p_space=p_free_space, scale=1.0)
 
 
