@@ -85,6 +85,17 @@ def test_it_is_judged_by_what_the_student_has_set():
     assert "You predicted: yes." in words(app)
 
 
+def test_more_than_the_pages_simulate_is_not_simulated_for_a_check():
+    app = opened("see_more")
+    predict(app)
+    wide = {"range_px": 300, "fov_deg": 360, "cell_px": 1}
+    settings = app.session_state["settings"]
+    app.session_state["settings"] = compute.with_changes(settings, wide)
+    press(app, "Check")
+    assert "are simulated here" in "\n".join(said(app.error))
+    assert app.session_state["attempts"]["see_more"].n_checks == 0
+
+
 def test_hints_come_one_by_one():
     app = opened("one_clear_look")
     assert "Hint." not in words(app)

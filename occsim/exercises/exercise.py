@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from occsim.errors import ParameterError, expect
-from occsim.exercises.facts import SHARES, Context, Facts
+from occsim.exercises.facts import SHARES, Context, Facts, Readings, simulated
 from occsim.exercises.grammar import (
     Tree,
     Value,
@@ -16,7 +16,7 @@ from occsim.exercises.grammar import (
     parse_sum,
     value,
 )
-from occsim.exercises.state import ExerciseState, changed
+from occsim.exercises.state import ExerciseState
 
 REASON = "reason"
 """Name of the answer to the question "because"."""
@@ -145,7 +145,12 @@ class Exercise:
     is_open: bool = False
 
 
-def judge(exercise: Exercise, state: ExerciseState, stage: int = 0) -> Verdict:
+def judge(
+    exercise: Exercise,
+    state: ExerciseState,
+    stage: int = 0,
+    readings: Readings = simulated,
+) -> Verdict:
     """Judge a student's state by one check of an exercise.
 
     Parameters
@@ -156,6 +161,8 @@ def judge(exercise: Exercise, state: ExerciseState, stage: int = 0) -> Verdict:
         What the student set, pinned and answered.
     stage : int, default 0
         Which of its checks; those before it are solved.
+    readings : callable, optional
+        As in `Facts`.
 
     Returns
     -------
@@ -177,7 +184,7 @@ def judge(exercise: Exercise, state: ExerciseState, stage: int = 0) -> Verdict:
         raise ParameterError(
             f"stage must be 0 to {len(exercise.checks) - 1}; got {stage!r}"
         )
-    facts = Facts(state, exercise.context)
+    facts = Facts(state, exercise.context, readings)
     check = exercise.checks[stage]
     last = stage == len(exercise.checks) - 1
     right = holds(check.tree, facts.value) and (
@@ -222,13 +229,6 @@ def _shown(given: Value, is_share: bool) -> str:
     if given != given:
         return "–"
     return f"{100 * given:.1f} %" if is_share else f"{given:.4g}"
-
-
-def with_answers(
-    state: ExerciseState, answers: Mapping[str, float | str]
-) -> ExerciseState:
-    """Return a state with some answers given."""
-    return changed(state, {"answer": answers})
 
 
 def parsed_checks(rows: Sequence[Mapping[str, str]]) -> tuple[Check, ...]:

@@ -1,9 +1,10 @@
 """The facts that a check may use, each computed when it is first asked for."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from typing import TypeAlias
 
 import numpy as np
 
@@ -89,8 +90,25 @@ def is_fact(name: str) -> bool:
     return names is None or rest in names
 
 
+Readings: TypeAlias = Callable[[str, MapSettings], MappingRun]
+"""Gives a sample, mapped under some settings."""
+
+
 @lru_cache(maxsize=16)
-def _readings(drawing: str, settings: MapSettings) -> MappingRun:
+def simulated(drawing: str, settings: MapSettings) -> MappingRun:
+    """Return a sample mapped under some settings; the last few are kept.
+
+    Parameters
+    ----------
+    drawing : str
+        Name of a sample.
+    settings : MapSettings
+        Cells and sensor.
+
+    Returns
+    -------
+    MappingRun
+    """
     run = MappingRun(load_sample(drawing), settings)
     _ = run.evidence
     return run
@@ -105,6 +123,9 @@ class Facts:
         What the student set, pinned and answered.
     context : Context, optional
         What the exercise names.
+    readings : callable, optional
+        Gives a sample mapped under some settings; `simulated` by default. An
+        application that keeps runs, or bounds them, gives its own.
 
     Examples
     --------
@@ -114,8 +135,14 @@ class Facts:
     0.656
     """
 
-    def __init__(self, state: ExerciseState, context: Context | None = None) -> None:
+    def __init__(
+        self,
+        state: ExerciseState,
+        context: Context | None = None,
+        readings: Readings = simulated,
+    ) -> None:
         self.state, self.context = state, context or Context()
+        self._readings = readings
 
     def value(self, name: str) -> Value:
         """Return a fact; NaN where it is undefined, a word where it is none.
@@ -156,7 +183,7 @@ class Facts:
             truth_share=self.state.truth_share,
         )
         return self._with_drawing(
-            _readings(self.state.drawing, settings), self.state.prior_drawing
+            self._readings(self.state.drawing, settings), self.state.prior_drawing
         )
 
     def _with_drawing(self, run: MappingRun, which: str) -> MappingRun:
@@ -248,7 +275,8 @@ class Facts:
 
     def _twice(self, _: str) -> float:
         """Greatest difference of log-odds from the reference, in cells read twice."""
-        other = Facts(changed(self.state, self.context.reference), self.context)
+        reference = changed(self.state, self.context.reference)
+        other = Facts(reference, self.context, self._readings)
         twice = self.map.n_updates == 2
         gaps = np.abs(self.map.log_odds - other.map.log_odds)[twice]
         return float(gaps.max()) if gaps.size else math.nan
@@ -328,23 +356,22 @@ class Facts:
         rule = UpdateRule.PRIOR_ONCE if once else UpdateRule.SUBTRACT_PRIOR
         return float(
             sum(
-                _peaks_low(replace(self.state, drawing=drawing, cell_px=cell_px), rule)[
-                    peak
-                ]
+                self._peaks_low(drawing, cell_px, rule)[peak]
                 for drawing in sample_names()
                 for cell_px in STUDY_CELLS_PX
             )
         )
 
-
-def _peaks_low(state: ExerciseState, rule: UpdateRule) -> dict[str, bool]:
-    """Whether the maxima of the source's 10 x 10 pairs, ties among them, lie low."""
-    sample = load_sample(state.drawing)
-    settings = MapSettings(cell_px=state.cell_px, sensor=sample.sensor)
-    sweep = _readings(state.drawing, settings).sweep(rule=rule)
-    recall = sweep.recall == np.nanmax(sweep.recall)
-    precision = sweep.precision == np.nanmax(sweep.precision)
-    return {
-        "recall_at_low_wall": bool(recall[0].any()),
-        "precision_at_low_space": bool(precision[:, sweep.p_space <= 0.5 + 1e-9].any()),
-    }
+    def _peaks_low(
+        self, drawing: str, cell_px: int, rule: UpdateRule
+    ) -> dict[str, bool]:
+        """Return whether maxima of the source's 10 x 10 pairs, or ties, lie low."""
+        settings = MapSettings(cell_px=cell_px, sensor=load_sample(drawing).sensor)
+        sweep = self._readings(drawing, settings).sweep(rule=rule)
+        recall = sweep.recall == np.nanmax(sweep.recall)
+        precision = sweep.precision == np.nanmax(sweep.precision)
+        low_space = sweep.p_space <= 0.5 + 1e-9
+        return {
+            "recall_at_low_wall": bool(recall[0].any()),
+            "precision_at_low_space": bool(precision[:, low_space].any()),
+        }

@@ -2,12 +2,12 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 import streamlit as st
 
-from occsim import Prior
+from occsim import MappingRun, MapSettings, Prior
 from occsim.exercises import (
     Exercise,
     ExerciseState,
@@ -18,6 +18,7 @@ from occsim.exercises import (
 )
 from occsim.prior import PRIOR_SCALE
 from occsim.samples import sample_names
+from pages._ui import compute
 from pages._ui.columns import FLAWS, Column
 from pages._ui.settings import TABLE, Settings, column_with, with_changes
 from pages._ui.state.chosen import (
@@ -38,6 +39,8 @@ from pages._ui.state.replay import (
 PLAYER_PAGES = "build_a_map", "two_maps"
 LENS_PAGE = "what_the_sensor_says"
 OF_LENS = ("behind_hit", "clear_no_hit", "rule", "range_px", "fov_deg")
+OF_ALL = ("range_px", "fov_deg", "clear_no_hit", "wall_share", "truth_share", "region")
+"""Settings that all maps of a page share."""
 OF_MAP = ("p_wall", "p_space", "uninformative", "rule", "behind_hit", "cell_px")
 """Settings that each of several maps has for itself."""
 
@@ -134,19 +137,17 @@ def _middle(cell: tuple[int, int], cell_px: int) -> tuple[float, float]:
 
 def _columns(exercise: Exercise) -> tuple[Column, ...]:
     """Map A is the student's; map B the reference of the exercise, or no drawing."""
-    own = _column({**exercise.settings})
+    own = _column(exercise.settings)
     reference = exercise.context.reference
     other = _column(reference) if reference else Column(uninformative=True)
     return own, other
 
 
 def _column(given: Mapping[str, Any]) -> Column:
-    known = {
-        name: str(value) if name in ("rule", "behind_hit", "prior_drawing") else value
-        for name, value in given.items()
-        if name in Column.__dataclass_fields__
-    }
-    return column_with(Column(), known)
+    names = {one.name for one in fields(Column)}
+    return column_with(
+        Column(), {name: value for name, value in given.items() if name in names}
+    )
 
 
 def _lens(setup: ExerciseState) -> LensDocument:
@@ -224,19 +225,11 @@ def student(exercise: Exercise) -> ExerciseState | None:
     values = _values(settings, exercise)
     cell_px = values["cell_px"]
     pin = played.pin_px
-    n_readings = len(building().trajectory)
+    values |= {name: getattr(settings, name) for name in OF_ALL}
     values |= {
         "drawing": choice(),
-        "range_px": float(settings.range_px),
-        "fov_deg": float(settings.fov_deg),
-        "clear_no_hit": settings.clear_no_hit,
-        "wall_share": settings.wall_share,
-        "truth_share": settings.truth_share,
-        "region": settings.region,
-        "step": min(played.step, n_readings),
-        "cell": None
-        if pin is None
-        else (int(pin[1] // cell_px), int(pin[0] // cell_px)),
+        "step": min(played.step, len(building().trajectory)),
+        "cell": pin and [int(at // cell_px) for at in reversed(pin)],
         "moved": attempt_of(exercise).moved,
         "answer": answers(exercise),
     }
@@ -254,7 +247,7 @@ def _values(settings: Settings, exercise: Exercise) -> dict[str, Any]:
         own, flaws = settings, settings.flaws
     found = {name: getattr(own, name) for name in OF_MAP}
     found["prior_drawing"] = own.prior_drawing.value
-    return found | {name: getattr(flaws, name) for name in flaws.__dataclass_fields__}
+    return found | asdict(flaws)
 
 
 def watch(exercise: Exercise) -> None:
@@ -284,13 +277,18 @@ def _moved(
     return {name: max(gap, so_far.get(name, 0.0)) for name, gap in gaps.items()}
 
 
+def _readings(drawing: str, settings: MapSettings) -> MappingRun:
+    """The runs that the pages show, with their bound of what is simulated."""
+    return compute.mapped(compute.sample(drawing), settings)
+
+
 def check(exercise: Exercise) -> None:
     """Judge the student's state; a check that holds leads to the next one."""
     state = student(exercise)
     if state is None:
         return
     attempt = attempt_of(exercise)
-    verdict = judge(exercise, state, attempt.stage)
+    verdict = judge(exercise, state, attempt.stage, _readings)
     last = len(exercise.checks) - 1
     stage = min(attempt.stage + 1, last) if verdict.is_solved else attempt.stage
     keep_attempt(
