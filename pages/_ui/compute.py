@@ -210,8 +210,12 @@ def with_errors(building: Building, settings: Settings) -> MappingRun:
 
 def errors_picture(building: Building, settings: Settings) -> bytes:
     """A PNG of the walls of the prior over those of the building's drawing."""
-    own = building.wall_mask
-    mask = prior_mask(building, settings)
+    return _errors_picture(building.digest, prior_key(building, settings), building)
+
+
+@shared()
+def _errors_picture(digest: str, drawn: PriorKey, _building: Building) -> bytes:
+    own, mask = _building.wall_mask, drawn_mask(_building, drawn)
     given = own if mask is None else mask
     colours = palette.FREE, palette.MISSED_WALL, palette.FALSE_WALL, palette.HIT
     return class_png(own.astype("uint8") + 2 * given, colours)
