@@ -22,16 +22,19 @@ class FileKind(Enum):
     PDF = "a PDF", "open it as a drawing"
     ROBOT_MAP = (
         "a robot's map in ROS format",
-        "open it as a robot's map, together with its .yaml",
+        "occsim.io.ros_map reads it, together with its .yaml",
     )
     MAP_YAML = (
         "the .yaml of a robot's map in ROS format",
-        "open it as a robot's map, together with its image",
+        "occsim.io.ros_map reads it, together with its image",
     )
-    CARMEN_LOG = "a robot's log in CARMEN format", "open it as a robot's log"
-    ROS_BAG = "a ROS 1 bag", "open it as a robot's log"
-    ROS_BAG_SQLITE = "an SQLite database, as ROS 2 bags are", "open it as a robot's log"
-    ROS_BAG_MCAP = "an MCAP recording of ROS 2", "open it as a robot's log"
+    CARMEN_LOG = "a robot's log in CARMEN format", "occsim.io.carmen reads it"
+    ROS_BAG = "a ROS 1 bag", "export its scans as a CARMEN log"
+    ROS_BAG_SQLITE = (
+        "an SQLite database, as ROS 2 bags are",
+        "export its scans as a CARMEN log",
+    )
+    ROS_BAG_MCAP = "an MCAP recording of ROS 2", "export its scans as a CARMEN log"
     POSE_GRAPH = "a pose graph in g2o format", "export its poses as x, y, theta"
     ZIP = (
         "a zip archive",
