@@ -11,7 +11,8 @@ ROOT = Path(__file__).resolve().parents[1]
 # do not import each other).
 ORDER = [
     {"_extras", "_types", "errors"},
-    {"_files", "_npz", "logodds"},
+    {"_archives", "_files", "logodds"},
+    {"_npz"},
     {"geometry"},
     {"grid"},
     {"imaging"},

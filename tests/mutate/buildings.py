@@ -102,14 +102,14 @@ BUILDINGS: tuple[Mutation, ...] = (
         "project files of the first release open",
     ),
     Mutation(
-        "occsim/io/project/archive.py",
-        "if total > MAX_UNPACKED_BYTES:",
+        "occsim/_archives.py",
+        "if total > max_bytes:",
         "if False:",
         ("tests/test_project.py",),
         "the files of a project are bounded together",
     ),
     Mutation(
-        "occsim/io/project/archive.py",
+        "occsim/_archives.py",
         "if n_entries > MAX_ENTRIES:",
         "if False:",
         ("tests/test_project.py",),

@@ -102,9 +102,9 @@ SCANS: tuple[Mutation, ...] = (
         "the prior is subtracted where a cell is read, not where it could be",
     ),
     Mutation(
-        "occsim/_npz.py",
-        "if entry.file_size > most or entry.flag_bits & 1:",
-        "if entry.flag_bits & 1:",
+        "occsim/_archives.py",
+        "if entry.file_size > limits[entry.filename]:",
+        "if False:",
         ("tests/test_mapper.py",),
         "an archive is measured before it is unpacked",
     ),

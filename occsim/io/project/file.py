@@ -28,7 +28,7 @@ from occsim.io.project.archive import (
     WALLS,
     ProjectError,
     check_images,
-    unpacked,
+    unpacked_project,
 )
 from occsim.io.project.values import (
     FORMAT,
@@ -162,7 +162,7 @@ def load_project(source: bytes | str | Path, *, name: str | None = None) -> Proj
     )
     name = name or file_name
     try:
-        return _project(unpacked(data))
+        return _project(unpacked_project(data))
     except OccsimError as error:
         raise ProjectError(f"{name} cannot be opened: {error}") from None
 

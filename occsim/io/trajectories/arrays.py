@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from occsim._files import printable
+from occsim._npz import read_header
 from occsim.errors import TrajectoryError
 from occsim.io.trajectories.columns import find_columns
 from occsim.io.trajectories.table import (
@@ -47,12 +48,8 @@ def parse_npy(data: bytes, name: str) -> TrajectoryTable:
     """
     stream = io.BytesIO(data)
     try:
-        read_header = {
-            (1, 0): np.lib.format.read_array_header_1_0,
-            (2, 0): np.lib.format.read_array_header_2_0,
-        }[np.lib.format.read_magic(stream)]
         shape, by_column, dtype = read_header(stream)
-    except Exception:  # damaged headers end in errors of many types
+    except ValueError:
         raise TrajectoryError(f"the header of {name} is damaged or unknown") from None
     check_array(shape, dtype, name)
     start, count = stream.tell(), shape[0] * 3
