@@ -1,31 +1,13 @@
 """What can be wrong with a drawing; every range is declared here, once."""
 
 import math
-from dataclasses import dataclass, field, fields, replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
-from occsim.errors import ParameterError, real_number, whole_number
-from occsim.walls.params import Bounds
-
-
-class _Domain(NamedTuple):
-    """What a field allows, and the narrower range that a slider offers."""
-
-    low: float
-    high: float
-    slider: Bounds
-    is_whole: bool = False
-
-
-def _declared(default: float, domain: _Domain) -> float:
-    """Declare a field with its domain; typed as the value that the field holds."""
-    value: float = field(default=default, metadata={"domain": domain})
-    return value
-
+from occsim._bounds import Bounds, bounded, check_bounds, slider_of
 
 _DEGREE = math.pi / 180.0
-_SHIFT = _Domain(-1e4, 1e4, Bounds(-20.0, 20.0, 1.0))
-_SHARE = _Domain(0.0, 1.0, Bounds(0.0, 1.0, 0.05))
+_SHIFT = Bounds(-20.0, 20.0, 1.0), (-1e4, 1e4)
+_SHARE = Bounds(0.0, 1.0, 0.05)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -62,21 +44,19 @@ class DrawingFlaws:
     Bounds(low=-20.0, high=20.0, step=1.0)
     """
 
-    thickness_px: int = _declared(0, _Domain(-50, 50, Bounds(-5, 5, 1), True))  # type: ignore[assignment]
-    shift_x_px: float = _declared(0.0, _SHIFT)
-    shift_y_px: float = _declared(0.0, _SHIFT)
-    rotation_rad: float = _declared(
-        0.0, _Domain(-math.tau, math.tau, Bounds(-10 * _DEGREE, 10 * _DEGREE, _DEGREE))
+    thickness_px: int = bounded(0, Bounds(-5, 5, 1), (-50, 50), is_whole=True)
+    shift_x_px: float = bounded(0.0, *_SHIFT)
+    shift_y_px: float = bounded(0.0, *_SHIFT)
+    rotation_rad: float = bounded(
+        0.0, Bounds(-10 * _DEGREE, 10 * _DEGREE, _DEGREE), (-math.tau, math.tau)
     )
-    scale: float = _declared(1.0, _Domain(0.1, 10.0, Bounds(0.8, 1.25, 0.01)))
-    missing_share: float = _declared(0.0, _SHARE)
-    false_share: float = _declared(0.0, _SHARE)
-    seed: int = _declared(0, _Domain(0, 2**32 - 1, Bounds(0, 99, 1), True))  # type: ignore[assignment]
+    scale: float = bounded(1.0, Bounds(0.8, 1.25, 0.01), (0.1, 10.0))
+    missing_share: float = bounded(0.0, _SHARE)
+    false_share: float = bounded(0.0, _SHARE)
+    seed: int = bounded(0, Bounds(0, 99, 1), (0, 2**32 - 1), is_whole=True)
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            value = _checked(item.name, getattr(self, item.name))
-            object.__setattr__(self, item.name, value)
+        check_bounds(self)
 
     @classmethod
     def bounds(cls, name: str) -> Bounds:
@@ -87,27 +67,9 @@ class DrawingFlaws:
         ParameterError
             Where there is no field of that name.
         """
-        return _domain(name).slider
+        return slider_of(cls, name, "flaw of a drawing")
 
     @property
     def are_none(self) -> bool:
         """Whether the drawing is left as it is, whatever the seed."""
         return replace(self, seed=0) == DrawingFlaws()
-
-
-def _domain(name: str) -> _Domain:
-    for item in fields(DrawingFlaws):
-        if item.name == name:
-            found: _Domain = item.metadata["domain"]
-            return found
-    raise ParameterError(f"no flaw of a drawing is named {name!r}")
-
-
-def _checked(name: str, value: object) -> float:
-    low, high, _, is_whole = _domain(name)
-    if is_whole:
-        return whole_number(name, value, int(low), int(high))
-    number = real_number(name, value)
-    if isinstance(value, bool) or not low <= number <= high:
-        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]; got {value!r}")
-    return number

@@ -1,27 +1,12 @@
 """What can be adjusted in wall detection; every bound is declared here, once."""
 
-import math
-from dataclasses import dataclass, field, fields
-from typing import NamedTuple
+from dataclasses import dataclass
 
-from occsim.errors import ParameterError, real_number
+from occsim._bounds import Bounds, bounded, check_bounds, slider_of
+from occsim.errors import ParameterError
 
 MAX_LENGTH_PX = 1_000.0
 """Largest length that a parameter takes, px: thicker than any wall of a drawing."""
-
-
-class Bounds(NamedTuple):
-    """Least and largest value of a parameter, both allowed, and a handy step."""
-
-    low: float
-    high: float
-    step: float
-
-
-def _bounded(default: float, low: float, high: float, step: float) -> float:
-    """Declare a field with its bounds; typed as the value that the field holds."""
-    value: float = field(default=default, metadata={"bounds": Bounds(low, high, step)})
-    return value
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -61,23 +46,20 @@ class WallParams:
     Bounds(low=0.0, high=0.2, step=0.01)
     """
 
-    ink_level: float = _bounded(0.0, 0.0, 0.95, 0.05)
-    shadow_window_px: float = _bounded(0.0, 0.0, MAX_LENGTH_PX, 10.0)
-    door_fit: float = _bounded(0.04, 0.0, 0.2, 0.01)
-    min_wall_px: float = _bounded(0.0, 0.0, MAX_LENGTH_PX, 0.5)
-    max_gap_px: float = _bounded(0.0, 0.0, MAX_LENGTH_PX, 0.5)
-    min_piece_px: float = _bounded(0.0, 0.0, MAX_LENGTH_PX, 5.0)
+    ink_level: float = bounded(0.0, Bounds(0.0, 0.95, 0.05))
+    shadow_window_px: float = bounded(0.0, Bounds(0.0, MAX_LENGTH_PX, 10.0))
+    door_fit: float = bounded(0.04, Bounds(0.0, 0.2, 0.01))
+    min_wall_px: float = bounded(0.0, Bounds(0.0, MAX_LENGTH_PX, 0.5))
+    max_gap_px: float = bounded(0.0, Bounds(0.0, MAX_LENGTH_PX, 0.5))
+    min_piece_px: float = bounded(0.0, Bounds(0.0, MAX_LENGTH_PX, 5.0))
     straighten: bool = True
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if "bounds" in item.metadata:
-                object.__setattr__(self, item.name, _checked(item.name, value))
-            elif not isinstance(value, bool):
-                raise ParameterError(
-                    f"{item.name} must be true or false; got {value!r}"
-                )
+        check_bounds(self)
+        if not isinstance(self.straighten, bool):
+            raise ParameterError(
+                f"straighten must be true or false; got {self.straighten!r}"
+            )
 
     @classmethod
     def bounds(cls, name: str) -> Bounds:
@@ -88,19 +70,4 @@ class WallParams:
         ParameterError
             Where no parameter of that name has bounds.
         """
-        for item in fields(cls):
-            if item.name == name and "bounds" in item.metadata:
-                found: Bounds = item.metadata["bounds"]
-                return found
-        raise ParameterError(f"no parameter with bounds is named {name!r}")
-
-
-def _checked(name: str, value: object) -> float:
-    """Return a parameter's value as a float within its bounds."""
-    if isinstance(value, bool):
-        raise ParameterError(f"{name} must be a number; got {value!r}")
-    number = real_number(name, value)
-    low, high, _ = WallParams.bounds(name)
-    if not (low <= number <= high and math.isfinite(number)):
-        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]; got {value!r}")
-    return number
+        return slider_of(cls, name, "parameter with bounds")
