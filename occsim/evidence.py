@@ -192,13 +192,10 @@ def stream_evidence(
     TypeError, ParameterError
         As in `collect_evidence`, at once.
     """
-    for name, value, kind in (
-        ("world", world, World),
-        ("trajectory", trajectory, Trajectory),
-        ("sensor", sensor, Sensor),
-        ("grid", grid, Grid),
-    ):
-        expect(name, value, kind)
+    expect("world", world, World)
+    expect("trajectory", trajectory, Trajectory)
+    expect("sensor", sensor, Sensor)
+    expect("grid", grid, Grid)
     require_cover(grid, world.shape)
     batches = pixel_counts(world, trajectory.poses, sensor, grid)
     return logged(batches, len(trajectory), on_progress)

@@ -92,12 +92,9 @@ def one_reading(
     >>> seen.n_empty, seen.n_object
     (array([[2, 1, 0]]), array([[0, 1, 1]]))
     """
-    for name, value, kind in (
-        ("world", world, World),
-        ("sensor", sensor, Sensor),
-        ("grid", grid, Grid),
-    ):
-        expect(name, value, kind)
+    expect("world", world, World)
+    expect("sensor", sensor, Sensor)
+    expect("grid", grid, Grid)
     require_cover(grid, world.shape)
     poses = Trajectory(poses=real_array("pose", pose)[None]).poses
     everything = replace(sensor, behind_hit=BehindHit.OCCUPIED, clear_no_hit=True)

@@ -134,12 +134,9 @@ def hits_visits(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> HitsVisits:
     >>> found.hits, found.visits
     (array([[0, 0, 1, 1, 0]]), array([[2, 2, 2, 1, 0]]))
     """
-    for name, value, kind in (
-        ("scan_log", scan_log, ScanLog),
-        ("sensor", sensor, Sensor),
-        ("grid", grid, Grid),
-    ):
-        expect(name, value, kind)
+    expect("scan_log", scan_log, ScanLog)
+    expect("sensor", sensor, Sensor)
+    expect("grid", grid, Grid)
     hits, visits = (np.zeros(grid.n_cells, dtype=np.int64) for _ in range(2))
     for start, ends, is_hit in _beams(scan_log, sensor, grid):
         visits += _counted(_passed(start, ends), grid)

@@ -95,12 +95,9 @@ def evidence_from_scans(
     >>> evidence_from_scans(log, Sensor(), grid).log_odds.round(2)
     array([ 2.2,  2.2,  2.2,  2.2, -2.2, -2.2])
     """
-    for name, value, kind in (
-        ("scan_log", scan_log, ScanLog),
-        ("sensor", sensor, Sensor),
-        ("grid", grid, Grid),
-    ):
-        expect(name, value, kind)
+    expect("scan_log", scan_log, ScanLog)
+    expect("sensor", sensor, Sensor)
+    expect("grid", grid, Grid)
     batches = scan_counts(scan_log, sensor, grid)
     return joined(logged(batches, scan_log.n_scans, on_progress))
 

@@ -81,12 +81,9 @@ def simulate_scans(
     >>> simulate_scans(world, robot, Sensor(range_px=40), n_beams=3).ranges_px
     array([[ inf, 19.5,  inf]])
     """
-    for name, value, kind in (
-        ("world", world, World),
-        ("trajectory", trajectory, Trajectory),
-        ("sensor", sensor, Sensor),
-    ):
-        expect(name, value, kind)
+    expect("world", world, World)
+    expect("trajectory", trajectory, Trajectory)
+    expect("sensor", sensor, Sensor)
     most_beams = max(min(MAX_BEAMS, MAX_RANGES // len(trajectory)), 1)
     n_beams = whole_number("n_beams", n_beams, 1, most_beams)
     bearings = ((np.arange(n_beams) + 0.5) / n_beams - 0.5) * sensor.fov_rad
