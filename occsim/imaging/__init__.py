@@ -7,7 +7,7 @@ limits of memory and time, and every failure becomes a `DrawingError` of one sen
 
 from occsim.imaging.drawing import Drawing
 from occsim.imaging.image import load_drawing
-from occsim.imaging.kinds import FileKind, kind_of_file
+from occsim.imaging.kinds import FileKind, kind_of_file, png_size
 from occsim.imaging.pdf import is_pdf, load_pdf_page, pdf_page_count
 from occsim.imaging.source import MAX_FILE_BYTES, MAX_PIXELS, MAX_SIDE_PX, MIN_SIDE_PX
 
@@ -23,4 +23,5 @@ __all__ = [
     "load_drawing",
     "load_pdf_page",
     "pdf_page_count",
+    "png_size",
 ]

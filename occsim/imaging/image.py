@@ -1,5 +1,6 @@
 """Drawings from files of any kind."""
 
+import math
 import struct
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from occsim.errors import DrawingError
 from occsim.imaging.decode.images import decode_image
 from occsim.imaging.decode.limits import Refused
 from occsim.imaging.drawing import Drawing
-from occsim.imaging.kinds import IMAGES, FileKind, kind_of_file
+from occsim.imaging.kinds import IMAGES, FileKind, kind_of_file, png_size
 from occsim.imaging.pdf import DEFAULT_PDF_SIDE_PX, load_pdf_page
 from occsim.imaging.pool import POOL
 from occsim.imaging.source import ALLOWED_FORMATS, checked_side, read_drawing_file
@@ -143,7 +144,8 @@ def _is_plain_png(data: bytes) -> bool:
     most. Profiles, texts and metadata can unpack to any size, so a file with them goes
     to the decoder's process.
     """
-    if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) > PLAIN_PNG_BYTES:
+    shape = png_size(data)
+    if shape is None or len(data) > PLAIN_PNG_BYTES:
         return False
     at, n_chunks = 8, 0
     while at + 8 <= len(data) and n_chunks < _MAX_CHUNKS:
@@ -151,8 +153,7 @@ def _is_plain_png(data: bytes) -> bool:
         if kind not in _PLAIN_CHUNKS or (at == 8) != (kind == b"IHDR"):
             return False
         at, n_chunks = at + 12 + size, n_chunks + 1
-    width, height = struct.unpack_from(">II", data.ljust(24, b"\0"), 16)
-    return n_chunks < _MAX_CHUNKS and width * height <= PLAIN_PNG_PIXELS
+    return n_chunks < _MAX_CHUNKS and math.prod(shape) <= PLAIN_PNG_PIXELS
 
 
 def _upright(stored: ByteArray, orientation: int) -> ByteArray:

@@ -1,6 +1,7 @@
 """What kind of file a user's file is, and where it can be opened."""
 
 import re
+import struct
 from enum import Enum
 
 HEAD_BYTES = 4096
@@ -65,6 +66,8 @@ class FileKind(Enum):
 
 IMAGES = (FileKind.IMAGE, FileKind.ROBOT_MAP)
 
+PNG_MARK = b"\x89PNG\r\n\x1a\n"
+
 _MARKS = (
     (rb"\x89PNG\r\n\x1a\n|\xff\xd8\xff|GIF8|BM|RIFF....WEBP", FileKind.IMAGE),
     (rb"II\*\0|MM\0\*|II\+\0|MM\0\+|P[1-7fF][\s#]", FileKind.IMAGE),
@@ -106,6 +109,26 @@ _SUFFIXES = {
 _MAP_LEVELS = b"\x00\xcd\xfe"
 _PGM_HEADER = re.compile(rb"P5((?:\s+|#[^\n]*\n)+\d+){3}\s")
 _MAP_COMMENT = re.compile(rb"#[^\n]*(m/pix|map_saver|Map_generator)")
+
+
+def png_size(data: bytes) -> tuple[int, int] | None:
+    """Return width and height of a PNG image, px, by its header; None for other files.
+
+    Parameters
+    ----------
+    data : bytes
+        The file's content.
+
+    Returns
+    -------
+    tuple of int, or None
+        0 where the header is cut short.
+    """
+    if not data.startswith(PNG_MARK):
+        return None
+    # They stand first in the first chunk, big-endian.
+    width, height = struct.unpack_from(">II", data[:24].ljust(24, b"\0"), 16)
+    return width, height
 
 
 def kind_of_file(data: bytes, name: str = "") -> FileKind:

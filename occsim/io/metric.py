@@ -10,6 +10,9 @@ from occsim.errors import ParameterError
 from occsim.geometry import wrap_angle
 from occsim.trajectory import Trajectory
 
+MAX_MAP_PIXELS = 16_000_000
+"""Largest map of a robot, px: 200 m x 200 m at 5 cm."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MetricFrame:

@@ -17,12 +17,14 @@ from occsim.errors import (
     real_number,
 )
 from occsim.grid import Grid
-from occsim.io.metric import MetricFrame, poses_to_image, poses_to_metric
+from occsim.io.metric import (
+    MAX_MAP_PIXELS,
+    MetricFrame,
+    poses_to_image,
+    poses_to_metric,
+)
 from occsim.scan import ScanLog
 from occsim.sensor import BehindHit, Sensor
-
-MAX_PIXELS = 16_000_000
-"""Largest map, px: 200 m x 200 m at 5 cm."""
 
 MAX_RANGES = 20_000_000
 """Most ranges of all scans together: 160 MB."""
@@ -120,7 +122,7 @@ def metric_scans(
     ------
     TypeError, OccsimError
         As `ScanLog`, where a scale or a range lies outside its domain, or the map would
-        have more than `MAX_PIXELS`.
+        have more than `MAX_MAP_PIXELS`.
 
     Examples
     --------
@@ -262,10 +264,10 @@ def _map_around(corners: FloatArray, scale: float) -> tuple[MetricFrame, int]:
         low, high = np.floor(corners[0] / scale), np.ceil(corners[1] / scale)
         width, height = (high - low).tolist()
         width_m, height_m = corners[1] - corners[0]
-    if not width * height <= MAX_PIXELS:
+    if not width * height <= MAX_MAP_PIXELS:
         raise ParameterError(
             f"the map would span {width_m:.4g} m x {height_m:.4g} m; at {scale:g} m a "
-            f"px, {MAX_PIXELS:,} px are allowed"
+            f"px, {MAX_MAP_PIXELS:,} px are allowed"
         )
     x_m, y_m = (round(end * scale, 9) for end in low.tolist())
     frame = MetricFrame(

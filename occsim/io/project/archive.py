@@ -5,11 +5,11 @@ from collections.abc import Mapping
 
 from occsim._archives import unpacked
 from occsim.errors import OccsimError
+from occsim.imaging import png_size
 
 MAX_UNPACKED_BYTES = 100_000_000
 """Total size of all files of an archive, unpacked, bytes."""
 
-PNG_MARK = b"\x89PNG\r\n\x1a\n"
 JSON_NAME, TRAJECTORY_NAME = "project.json", "trajectory.csv"
 DRAWING = "drawing.png"
 FOUND, CORRECTIONS, WALLS = "walls_found.png", "corrections.png", "walls.png"
@@ -50,17 +50,14 @@ def check_images(files: Mapping[str, bytes]) -> None:
     sizes = {}
     for name in IMAGES:
         if name in files:
-            if not files[name].startswith(PNG_MARK):
+            size = png_size(files[name])
+            if size is None:
                 raise ProjectError(f"{name} must be a PNG image; it is not")
-            # Width and height stand first in the first chunk, big-endian.
-            width, height = (
-                int.from_bytes(files[name][at : at + 4]) for at in (16, 20)
-            )
-            sizes[name] = f"{width} x {height} px"
-    for name, size in sizes.items():
-        if size != sizes[DRAWING]:
+            sizes[name] = f"{size[0]} x {size[1]} px"
+    for name, found in sizes.items():
+        if found != sizes[DRAWING]:
             raise ProjectError(
-                f"{name} must have the drawing's size, {sizes[DRAWING]}; got {size}"
+                f"{name} must have the drawing's size, {sizes[DRAWING]}; got {found}"
             )
 
 

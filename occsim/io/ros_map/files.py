@@ -1,16 +1,19 @@
 """ROS maps from files and into files, as nav2's map_server reads and writes them."""
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from occsim._files import printable, read_source
 from occsim._types import ByteArray
 from occsim.errors import ParameterError, RobotFileError, choice, expect, real_number
+from occsim.imaging import png_size
+from occsim.io.images import png
 from occsim.io.ros_map.image import (
     MapImage,
     pgm,
-    plain_png,
     read_image,
     transparent_png,
 )
@@ -94,12 +97,12 @@ def load(
     )
     meta = parse_meta(data, name)
     thresholds = {"occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
-    given = {
+    given: dict[str, Any] = {
         key: real_number(key, value)
         for key, value in thresholds.items()
         if value is not None
     }
-    meta = _replaced(meta, given)
+    meta = replace(meta, **given)
     found = read_image(*_image_of(meta, yaml, image))
     return RosMap(_read_values(found, meta), meta.resolution_m, meta.origin)
 
@@ -187,7 +190,7 @@ def save(
     """
     path = Path(path).with_suffix(".yaml")
     yaml, image = dump(ros_map, path.stem, mode=mode, image_format=image_format)
-    ending = "png" if image.startswith(b"\x89PNG") else "pgm"
+    ending = "pgm" if png_size(image) is None else "png"
     path.with_suffix(f".{ending}").write_bytes(image)
     path.write_bytes(yaml)
 
@@ -195,11 +198,6 @@ def save(
 def _is_plain(name: str) -> bool:
     allowed = all(c.isalnum() or c in "._-" for c in name)
     return allowed and name.isascii() and 0 < len(name) < 200 and name[0] != "."
-
-
-def _replaced(meta: MapMeta, given: dict[str, float]) -> MapMeta:
-    fields = {name: getattr(meta, name) for name in MapMeta.__slots__}
-    return MapMeta(**(fields | given))
 
 
 def _image_of(
@@ -277,7 +275,7 @@ def _image(ros_map: RosMap, mode: MapMode, ending: str) -> bytes:
             )
         return transparent_png(_levels(ros_map, mode), ~unknown)
     levels = _levels(ros_map, mode)
-    return plain_png(levels) if ending == "png" else pgm(levels)
+    return png(levels) if ending == "png" else pgm(levels)
 
 
 def _levels(ros_map: RosMap, mode: MapMode) -> ByteArray:

@@ -9,13 +9,9 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, ByteArray, FloatArray
 from occsim.errors import OccsimError, RobotFileError
-from occsim.imaging import load_drawing
-from occsim.io.images import png
+from occsim.imaging import load_drawing, png_size
+from occsim.io.metric import MAX_MAP_PIXELS
 
-MAX_PIXELS = 16_000_000
-"""Largest map, px: 200 m x 200 m at 5 cm."""
-
-_PNG_MARK = b"\x89PNG\r\n\x1a\n"
 _SPACE_OR_COMMENT = rb"(?:\s|#[^\r\n]*[\r\n])+"
 _PGM = re.compile(
     rb"(P[25])" + (_SPACE_OR_COMMENT + rb"(\d{1,9})") * 3 + rb"(?:#[^\r\n]*[\r\n]|\s)"
@@ -71,8 +67,9 @@ def read_image(data: bytes, name: str) -> MapImage:
     """
     if data.startswith((b"P2", b"P5")):
         return MapImage(_read_pgm(data, name), None)
-    if data.startswith(_PNG_MARK):
-        return _read_png(data, name)
+    size = png_size(data)
+    if size is not None:
+        return _read_png(data, name, *size)
     try:
         drawing = load_drawing(data, name=name, allow_robot_map=True)
     except OccsimError as error:
@@ -100,11 +97,6 @@ def transparent_png(levels: ByteArray, is_opaque: BoolArray) -> bytes:
     alpha = np.where(is_opaque, np.uint8(255), np.uint8(0))
     _, encoded = cv2.imencode(".png", np.dstack([levels, levels, levels, alpha]))
     return encoded.tobytes()
-
-
-def plain_png(levels: ByteArray) -> bytes:
-    """Return grey levels, uint8 of shape (H, W), as a PNG file."""
-    return png(levels)
 
 
 def _read_pgm(data: bytes, name: str) -> FloatArray:
@@ -146,9 +138,7 @@ def _plain_levels(body: bytes, count: int, most: int) -> FloatArray | None:
     return levels[:count] if levels.size >= count else None
 
 
-def _read_png(data: bytes, name: str) -> MapImage:
-    # Width and height stand first in the first chunk, big-endian.
-    width, height = (int.from_bytes(data[at : at + 4]) for at in (16, 20))
+def _read_png(data: bytes, name: str, width: int, height: int) -> MapImage:
     _check_size(height, width, name)
     try:
         found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
@@ -166,8 +156,8 @@ def _read_png(data: bytes, name: str) -> MapImage:
 
 
 def _check_size(height: int, width: int, name: str) -> None:
-    if min(height, width) < 1 or height * width > MAX_PIXELS:
+    if min(height, width) < 1 or height * width > MAX_MAP_PIXELS:
         raise RobotFileError(
             f"{name} has {width:,} x {height:,} px; a map may have 1 to "
-            f"{MAX_PIXELS:,} px in all"
+            f"{MAX_MAP_PIXELS:,} px in all"
         )

@@ -12,7 +12,7 @@ from occsim.grid import Grid, require_cover
 from occsim.io.metric import MetricFrame
 from occsim.mapping import OccupancyMap
 from occsim.prior import PriorMap
-from occsim.world import World
+from occsim.world import World, wall_cells
 
 UNKNOWN, FREE, OCCUPIED = -1, 0, 100
 """Values of ``nav_msgs/OccupancyGrid``."""
@@ -222,8 +222,9 @@ class RosMap(ShortRepr):
         sums = pixels
         for axis, start in enumerate(starts):
             sums = np.add.reduceat(sums, start, axis=axis)
-        is_wall = grid.share(self.is_occupied) > 0.0
-        return PriorMap(grid, is_wall, sums / grid.pixels_per_cell())
+        return PriorMap(
+            grid, wall_cells(self.is_occupied, grid), sums / grid.pixels_per_cell()
+        )
 
     def occupancy_grid(self) -> Values:
         """Return the ``data`` of a ``nav_msgs/OccupancyGrid``, int8 of shape (H * W,).
