@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # do not import each other).
 ORDER = [
     {"_extras", "_types", "errors"},
-    {"_archives", "_bounds", "_files", "logodds"},
+    {"_archives", "_bounds", "_files", "_plain", "logodds"},
     {"_npz"},
     {"geometry"},
     {"grid"},

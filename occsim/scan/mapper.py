@@ -1,7 +1,6 @@
 """A map that grows scan by scan, as on a robot."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Self
 
@@ -10,6 +9,7 @@ import numpy.typing as npt
 
 from occsim._files import read_source
 from occsim._npz import packed, unpacked
+from occsim._plain import plain
 from occsim._types import FloatArray
 from occsim.errors import (
     OccsimError,
@@ -199,9 +199,9 @@ class Mapper:
         about = {
             "format": _FORMAT,
             "version": _VERSION,
-            "grid": asdict(self._grid),
+            "grid": plain(self._grid),
             "rule": self._rule.value,
-            "sensor": _plain(self._sensor),
+            "sensor": None if self._sensor is None else plain(self._sensor),
             "saturation": self._saturation,
         }
         arrays = {
@@ -313,12 +313,6 @@ class Mapper:
 
 def _same(ours: FloatArray, theirs: FloatArray) -> bool:
     return ours is theirs or np.array_equal(ours, theirs)
-
-
-def _plain(sensor: Sensor | None) -> dict[str, Any] | None:
-    if sensor is None:
-        return None
-    return asdict(sensor) | {"behind_hit": sensor.behind_hit.value}
 
 
 def _checked_saturation(value: object) -> float | None:

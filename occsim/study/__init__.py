@@ -1,5 +1,6 @@
 """Studies: drawings times cell sizes, as tables, fronts, files and pictures."""
 
+from occsim._plain import plain
 from occsim.study.batch import (
     Batch,
     Kept,
@@ -15,7 +16,6 @@ from occsim.study.figures import fronts_figure, maps_figure, save_figures
 from occsim.study.files import (
     STUDY,
     case_settings,
-    plain,
     read_case,
     study_document,
 )

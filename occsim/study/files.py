@@ -1,11 +1,10 @@
 """Cases of a study as plain values, as files of results hold them."""
 
-from dataclasses import asdict
-from enum import Enum
 from typing import Any
 
 import numpy as np
 
+from occsim._plain import plain
 from occsim._types import FloatArray
 from occsim.building import Building
 from occsim.metrics import Scores
@@ -141,14 +140,6 @@ def _front(points: dict[str, Any]) -> ParetoFront:
 
 def _floats(values: Any, shape: tuple[int, ...]) -> FloatArray:
     return np.array(values, dtype=np.float64).reshape(shape)
-
-
-def plain(parameters: Any) -> Document:
-    """Return the fields of a parameter class as plain values."""
-    return {
-        name: value.value if isinstance(value, Enum) else value
-        for name, value in asdict(parameters).items()
-    }
 
 
 STUDY = Kind(name=FORMAT, version=VERSION, work=study_document, read=read_case)

@@ -4,13 +4,14 @@ import io
 import json
 import zipfile
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from occsim._files import read_source
+from occsim._plain import plain
 from occsim._types import BoolArray
 from occsim.building import Building
 from occsim.corrections import Corrections
@@ -114,7 +115,6 @@ def _description(building: Building, settings: Mapping[str, str]) -> dict[str, A
     # The package imports its modules before it knows its version.
     from occsim import __version__
 
-    sensor = asdict(building.sensor)
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -125,10 +125,10 @@ def _description(building: Building, settings: Mapping[str, str]) -> dict[str, A
         "short_name": written_text(building.name),
         "door_px": building.door_px,
         "metres_per_px": building.metres_per_px,
-        "sensor": sensor | {"behind_hit": building.sensor.behind_hit.value},
+        "sensor": plain(building.sensor),
         "is_planned": building.trajectory is building.tour,
         "sketch": [list(corner) for corner in building.sketch],
-        "wall_params": asdict(building.wall_params),
+        "wall_params": plain(building.wall_params),
         "settings": {written_text(k): written_text(v) for k, v in settings.items()},
     }
 
