@@ -6,6 +6,7 @@ sensor says (once, free of any prior), the map that any prior then gives, how go
 map is, and which priors are best.
 """
 
+from occsim._version import __version__ as __version__
 from occsim.building import Building
 from occsim.corrections import Corrections
 from occsim.errors import (
@@ -96,8 +97,6 @@ from occsim.tour import default_tour
 from occsim.trajectory import HeadingMode, Trajectory, resample
 from occsim.walls import WallDetection, WallParams, detect_walls
 from occsim.world import World, truth_cells
-
-__version__ = "0.1.0"
 
 __all__ = [
     "RANGE_FINDERS",

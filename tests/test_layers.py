@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # A module may import only from lines above its own (rows of one line are peers and
 # do not import each other).
 ORDER = [
-    {"_extras", "_types", "errors"},
+    {"_extras", "_types", "_version", "errors"},
     {"_archives", "_bounds", "_files", "_plain", "logodds"},
     {"_npz"},
     {"geometry"},

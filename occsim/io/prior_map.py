@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from occsim._version import __version__
 from occsim.imaging import Drawing
 from occsim.io.images import png
 from occsim.io.map_pictures import belief_picture
@@ -104,9 +105,6 @@ def prior_json(
     str
         JSON, with the versions of this library and of NumPy.
     """
-    # The package imports its modules before it knows its version.
-    from occsim import __version__
-
     grid = prior_map.grid
     chosen = {name: _plain(value) for name, value in (chosen_on or {}).items()}
     document = {

@@ -12,6 +12,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import cv2
 import numpy as np
 
+from occsim._version import __version__
 from occsim.errors import OccsimError
 from occsim.study.content import DrawingContent, SensorChoice, read_content
 from occsim.study.machines import Failure, Machines, spread
@@ -267,9 +268,6 @@ def _described(batch: Batch, inputs: Document, cell_px: int) -> Document:
 
 def software() -> dict[str, str]:
     """Return the versions that a result depends on."""
-    # The package imports its modules before it knows its version.
-    from occsim import __version__
-
     return {
         "occsim": __version__,
         "numpy": np.__version__,

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import cv2
 
 from occsim._extras import needs_extra
+from occsim._version import __version__
 from occsim.errors import OccsimError, ParameterError, whole_number
 
 if TYPE_CHECKING:
@@ -214,7 +215,7 @@ def _on_cluster(
         while True:
             ahead = AHEAD * max(sum(client.nthreads().values()), 1)
             for job in islice(jobs, max(ahead - len(held), 0)):
-                args = (_version(), work, job)
+                args = (__version__, work, job)
                 held[client.submit(_attempt_of, *args, pure=False)] = job
             if not held:
                 return
@@ -264,14 +265,6 @@ def _result_of(future: Any, address: str) -> Any:
 
 
 def _attempt_of(version: str, work: Callable[[J], R], job: J) -> R | Failure:
-    here = _version()
-    if here != version:
-        return Failure(f"a worker has occsim {here}; {version} is needed")
+    if __version__ != version:
+        return Failure(f"a worker has occsim {__version__}; {version} is needed")
     return _attempt(work, job)
-
-
-def _version() -> str:
-    # The package imports its modules before it knows its version.
-    from occsim import __version__
-
-    return __version__

@@ -13,6 +13,7 @@ import numpy as np
 from occsim._files import read_source
 from occsim._plain import plain
 from occsim._types import BoolArray
+from occsim._version import __version__
 from occsim.building import Building
 from occsim.corrections import Corrections
 from occsim.errors import OccsimError
@@ -112,9 +113,6 @@ def _corrections_png(corrections: Corrections) -> bytes:
 
 def _description(building: Building, settings: Mapping[str, str]) -> dict[str, Any]:
     """Return the content of the JSON."""
-    # The package imports its modules before it knows its version.
-    from occsim import __version__
-
     return {
         "format": FORMAT,
         "version": VERSION,
