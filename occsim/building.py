@@ -294,7 +294,7 @@ def building_from_drawing(
     is_smaller = drawing.shape != (height, width)
     params = params or WallParams()
     found = detect_walls(drawing, params)
-    sensor = sensor or _proposed_sensor(found)
+    sensor = sensor or proposed_sensor(found)
     tour = _first_tour(World(occupied=found.mask), sensor)
     return Building(
         drawing=drawing,
@@ -308,7 +308,19 @@ def building_from_drawing(
     )
 
 
-def _proposed_sensor(found: WallDetection) -> Sensor:
+def proposed_sensor(found: WallDetection) -> Sensor:
+    """Return the sensor whose range is the length of a door that is proposed.
+
+    Parameters
+    ----------
+    found : WallDetection
+        The walls of a drawing.
+
+    Returns
+    -------
+    Sensor
+        The default one where no door is proposed; see `occsim.walls.propose_scale`.
+    """
     proposal = propose_scale(found)
     return Sensor() if proposal is None else Sensor(range_px=proposal.door_px)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from occsim._files import read_source
 from occsim._types import BoolArray
-from occsim.building import TOUR_READINGS, Building, truth_from_image
+from occsim.building import TOUR_READINGS, Building, proposed_sensor, truth_from_image
 from occsim.errors import DrawingError, TrajectoryError
 from occsim.imaging import MAX_FILE_BYTES, load_drawing
 from occsim.io.trajectories import MAX_FILE_BYTES as MAX_TABLE_BYTES
@@ -20,7 +20,7 @@ from occsim.sensor import Sensor
 from occsim.study.sources import DrawingSource
 from occsim.tour import default_tour
 from occsim.trajectory import Trajectory
-from occsim.walls import WallDetection, detect_walls, propose_scale
+from occsim.walls import WallDetection, detect_walls
 
 NO_TRAJECTORY = Trajectory(poses=np.zeros((1, 3)))
 """Stands in a building until its tour is planned, which takes the building's world."""
@@ -56,8 +56,7 @@ class SensorChoice:
         """Return the sensor for a drawing with these walls."""
         range_px = self.range_px
         if range_px is None:
-            proposal = propose_scale(found)
-            range_px = Sensor().range_px if proposal is None else proposal.door_px
+            range_px = proposed_sensor(found).range_px
         return Sensor(range_px=range_px, fov_rad=self.fov_rad)
 
 
