@@ -67,10 +67,7 @@ class StudySettings:
                 "low and high must satisfy 0 < low <= high <= 1; got "
                 f"{self.low!r} and {self.high!r}"
             )
-        for name in ("wall_share", "truth_share"):
-            value = getattr(self, name)
-            if not 0.0 <= value < 1.0:
-                raise ParameterError(f"{name} must lie in [0, 1); got {value!r}")
+        MapSettings(wall_share=self.wall_share, truth_share=self.truth_share)
 
 
 @dataclass(frozen=True, eq=False)
