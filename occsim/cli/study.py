@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from enum import Enum
 from pathlib import Path
 
-from occsim.cli.drawings import add_arguments, run_on_drawings
+from occsim.cli.drawings import Commands, add_arguments, run_on_drawings
 from occsim.mapping import UpdateRule
 from occsim.metrics import Region
 from occsim.sensor import BehindHit
@@ -46,10 +46,8 @@ _CHOICES: tuple[tuple[str, Enum, str], ...] = (
 """Options that take a member of an enum: name, default, help."""
 
 
-def add_command(
-    commands: "argparse._SubParsersAction[argparse.ArgumentParser]",
-) -> None:
-    """Add the command to the parser's."""
+def add_command(commands: Commands) -> None:
+    """Add the command to those of the parser."""
     study = commands.add_parser(
         "study",
         help="sweep the priors of drawings at several cell sizes",
