@@ -157,12 +157,38 @@ def score(
     >>> score(seen, [[True, False, False]])
     Scores(tp=1, fp=1, fn=0, tn=1)
     """
+    log_odds, wall = scored_cells(occupancy_map, truth, region)
+    outcome = outcome_of(is_occupied(log_odds), wall)
+    tn, fp, fn, tp = np.bincount(outcome, minlength=4).tolist()
+    return Scores(tp=tp, fp=fp, fn=fn, tn=tn)
+
+
+def scored_cells(
+    occupancy_map: OccupancyMap, truth: BoolArray, region: Region
+) -> tuple[FloatArray, BoolArray]:
+    """Return log-odds and truth of the cells of a region, each of shape (N,).
+
+    Parameters
+    ----------
+    occupancy_map, truth, region
+        As in `score`.
+
+    Returns
+    -------
+    log_odds : ndarray of float64, shape (N,)
+        Nats.
+    wall : ndarray of bool, shape (N,)
+        Cells that are wall in truth.
+
+    Raises
+    ------
+    TypeError, ParameterError
+        As in `score`.
+    """
     expect("occupancy_map", occupancy_map, OccupancyMap)
     truth = cells_of("truth", truth, occupancy_map.grid)
-    outcome = outcome_of(is_occupied(occupancy_map.log_odds), truth)
     scored = choice("region", region, Region).scored(occupancy_map.n_updates)
-    tn, fp, fn, tp = np.bincount(outcome[scored], minlength=4).tolist()
-    return Scores(tp=tp, fp=fp, fn=fn, tn=tn)
+    return occupancy_map.log_odds[scored], truth[scored]
 
 
 def coverage(occupancy_map: OccupancyMap) -> float:

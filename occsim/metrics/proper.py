@@ -10,11 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
-from occsim.errors import choice, expect, whole_number
-from occsim.grid import cells_of
+from occsim.errors import whole_number
 from occsim.logodds import logit, p_free_from_log_odds, softplus
 from occsim.mapping import OccupancyMap
-from occsim.metrics.counts import Region, ratio
+from occsim.metrics.counts import Region, ratio, scored_cells
 
 
 def surprise_bits(log_odds: npt.ArrayLike, wall: npt.ArrayLike) -> FloatArray:
@@ -72,7 +71,7 @@ def log_loss(
     >>> round(log_loss(seen, [[True, True]]), 6)  # -log2 of 0.5 and of 0.25
     1.5
     """
-    log_odds, wall = _scored(occupancy_map, truth, region)
+    log_odds, wall = scored_cells(occupancy_map, truth, region)
     return float(ratio(surprise_bits(log_odds, wall).sum(), wall.size))
 
 
@@ -105,7 +104,7 @@ def brier(
     >>> round(brier(seen, [[True, True]]), 6)  # mean of 0.25 and 0.5625
     0.40625
     """
-    log_odds, wall = _scored(occupancy_map, truth, region)
+    log_odds, wall = scored_cells(occupancy_map, truth, region)
     error = p_free_from_log_odds(log_odds) - ~wall
     return float(ratio(error @ error, wall.size))
 
@@ -174,7 +173,7 @@ def reliability(
     >>> round(diagram.expected_calibration_error, 6)
     0.3
     """
-    log_odds, wall = _scored(occupancy_map, truth, region)
+    log_odds, wall = scored_cells(occupancy_map, truth, region)
     n_bins = whole_number("n_bins", n_bins, 1, 1000)
     p_free = p_free_from_log_odds(log_odds)
     edges = np.linspace(0.0, 1.0, n_bins + 1)
@@ -185,13 +184,3 @@ def reliability(
         np.bincount(own, weights=values, minlength=n_bins) for values in (p_free, ~wall)
     )
     return Reliability(edges, ratio(stated, count), ratio(free, count), count)
-
-
-def _scored(
-    occupancy_map: OccupancyMap, truth: BoolArray, region: Region
-) -> tuple[FloatArray, BoolArray]:
-    """Return log-odds and truth of the cells of a region, each of shape (N,)."""
-    expect("occupancy_map", occupancy_map, OccupancyMap)
-    truth = cells_of("truth", truth, occupancy_map.grid)
-    scored = choice("region", region, Region).scored(occupancy_map.n_updates)
-    return occupancy_map.log_odds[scored], truth[scored]
