@@ -5,6 +5,7 @@ import pytest
 from scipy import stats
 
 from occsim import (
+    RANGE_FINDERS,
     ParameterError,
     ScanNoise,
     Sensor,
@@ -35,7 +36,7 @@ def ranges_at(distance_px, noise, *, n=N, range_px=200.0, seed=0):
 
 def test_the_kinects_noise_grows_as_published():
     """Nguyen et al. 2012: sigma = 0.0012 + 0.0019 (z - 0.4)^2, in metres."""
-    noise = ScanNoise.kinect(SCALE)
+    noise = RANGE_FINDERS["kinect"].noise(SCALE)
     for z_m, sigma_m in ((0.4, 0.0012), (1.4, 0.0031), (4.0, 0.025824)):
         measured = ranges_at(z_m / SCALE, noise) * SCALE
         # Four standard errors of mean and of standard deviation.

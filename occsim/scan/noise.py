@@ -1,7 +1,6 @@
 """What range finders and odometry get wrong."""
 
 from dataclasses import dataclass, fields
-from typing import Self
 
 import numpy as np
 
@@ -95,37 +94,6 @@ class ScanNoise:
                 f"dropout_share and short_share must not exceed 1 together; got "
                 f"{together:g}"
             )
-
-    @classmethod
-    def kinect(cls, metres_per_px: float) -> Self:
-        """Return the range noise of a Kinect: 0.0012 + 0.0019 (z - 0.4)^2, in metres.
-
-        Parameters
-        ----------
-        metres_per_px : float
-            Scale of the world, above 0.
-
-        Returns
-        -------
-        ScanNoise
-
-        References
-        ----------
-        .. [1] C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect sensor noise for
-           improved 3D reconstruction and tracking", 3DIMPVT 2012, axial noise.
-
-        Examples
-        --------
-        >>> noise = ScanNoise.kinect(metres_per_px=0.05)
-        >>> round(float(noise.sigma_px(20.0)) * 0.05, 6)  # at 1 m, in m
-        0.001884
-        """
-        return cls(
-            metres_per_px=metres_per_px,
-            sigma_0_m=0.0012,
-            sigma_2_per_m=0.0019,
-            sigma_from_m=0.4,
-        )
 
     def sigma_px(self, ranges_px: FloatArray | float) -> FloatArray:
         """Return the standard deviation of ranges, px, of the same shape."""
