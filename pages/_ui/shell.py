@@ -14,6 +14,7 @@ from streamlit.errors import StreamlitPageNotFoundError
 from occsim import OccsimError
 from pages._ui import exercising, state, words
 from pages._ui.components.address import address
+from pages._ui.qr import qr_popover
 
 LOG = logging.getLogger(__name__)
 
@@ -138,6 +139,9 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
     (100vw - 96px) * 0.2667) + 212px); }
 .st-key-home_finding { min-height: 2rem; align-items: center; }
 .st-key-home_finding a { text-decoration: underline; }
+/* Read from the back of a room. */
+.occsim-qr { display: block; width: min(52vh, 80vw); margin: auto;
+    image-rendering: pixelated; }
 .st-key-home_ways [data-testid="stPageLink"] a * { white-space: normal; }
 .st-key-home_ways h3 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
 @media (max-width: 640px) {
@@ -253,6 +257,7 @@ def _ending() -> None:
             progress=exercising.progress(),
             key="address",
         )
+        qr_popover(state.query())
         st.button("Reset all", on_click=state.reset_all)
 
 
