@@ -1,5 +1,6 @@
 """The home page: its maps, the answer it keeps, the path of lessons and the plans."""
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -12,6 +13,7 @@ from pages._ui.columns import HOME_COLUMNS, HOME_SAMPLE, Column
 from pages._ui.components.player import PlayerDocument, encode_document
 from pages._ui.shell import LESSONS
 from tests.test_pages import BUILD, ROOT, launch
+from tests.test_session import opened
 
 HOME = "app.py"
 LAST = len(load_sample(HOME_SAMPLE).trajectory)
@@ -34,6 +36,16 @@ def under(rule):
     """The maps of the home page under a rule, as the browser sends them."""
     columns = tuple(replace(column, rule=rule) for column in HOME_COLUMNS)
     return encode_document(PlayerDocument(columns=columns))["columns"]
+
+
+def link(app):
+    """The query of the link that the foot of a page offers."""
+    address = next(
+        one.proto
+        for one in app.get("bidi_component")
+        if one.proto.component_name == "address"
+    )
+    return json.loads(json.loads(address.json))["query"]
 
 
 def labels(app):
@@ -96,6 +108,26 @@ def test_only_the_rule_of_its_maps_can_be_changed():
         replace(column, rule=UpdateRule.SUBTRACT_PRIOR) for column in HOME_COLUMNS
     )
     assert app.session_state["settings"] == before
+
+
+def test_a_link_brings_back_its_step_and_its_rule():
+    app = opened(HOME, step="17", home_rule="subtract_prior")
+    assert played(app).step == 17
+    assert encode_document(played(app))["columns"] == under(UpdateRule.SUBTRACT_PRIOR)
+    # The map of another page opens where it does.
+    assert app.session_state["played"][state.PLAYER_KEY].step > 17
+
+
+@pytest.mark.parametrize("rule", ["", "x", "prior_once"])
+def test_a_link_with_no_rule_of_ours_opens_with_the_drawing_counted_once(rule):
+    assert played(opened(HOME, home_rule=rule)).columns == HOME_COLUMNS
+
+
+def test_its_link_says_where_it_is_and_opens_the_same():
+    app = commit(launch(HOME), step=LAST, columns=under(UpdateRule.SUBTRACT_PRIOR))
+    again = opened(HOME, **link(app))
+    assert played(again).step == LAST
+    assert played(again).columns == played(app).columns
 
 
 @pytest.mark.parametrize(

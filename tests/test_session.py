@@ -6,20 +6,24 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
+from urllib.parse import urlencode
 
 import numpy as np
 import pytest
 from PIL import Image
 from streamlit.testing.v1 import AppTest
 
-from occsim import Corrections, load_sample
+from occsim import BehindHit, Corrections, UpdateRule, load_sample
 from occsim.building import Building
 from occsim.imaging import Drawing
 from pages._ui import compute, state, words
+from pages._ui.choices import Flaw, Overlay, PriorDrawing
+from pages._ui.columns import Column
 from pages._ui.compute import with_walls
+from pages._ui.qr import qr_svg
 from pages._ui.settings import Settings
 from pages._ui.shared import Store, shared, size_of
-from pages._ui.state import chosen, edits, works
+from pages._ui.state import chosen, edits, replay, works
 from pages._ui.state.works import Works
 from tests.test_pages import BUILD, ROOT, control, launch, png, rooms, said, upload
 
@@ -285,6 +289,33 @@ def test_a_link_brings_back_settings_step_pin_and_speed():
     played = app.session_state["played"][state.PLAYER_KEY]
     assert (played.step, played.pin_px, played.speed) == (17, (30.5, 40.5), 60)
     assert app.session_state["settings"].p_wall == 0.35
+
+
+def test_a_link_with_three_maps_is_short_enough_for_a_projector_s_code(session):
+    """A code of under 300 characters has at most 69 modules a side with its border."""
+    session.path = replay.TWO_MAPS_PATH
+    state.choose("c")
+    other = Column(
+        prior_drawing=PriorDrawing.MIRRORED,
+        flaw=Flaw.THICK_2,
+        p_wall=0.35,
+        p_space=0.85,
+        rule=UpdateRule.SUBTRACT_PRIOR,
+        behind_hit=BehindHit.UNSEEN,
+        cell_px=5,
+    )
+    state.change(columns=(Column(), other, replace(other, calibrated=True)))
+    state.change(range_px=75, fov_deg=360, overlay=Overlay.ERRORS)
+    session.exercise = "smaller_cells_or_more_readings"
+    key = replay.TWO_MAPS_KEY
+    session.played[key] = replace(
+        session.played[key], step=321, pin_px=(412.5, 388.5), speed=60
+    )
+    query = state.query()
+    assert {"step", "pin", "columns", "exercise", "speed"} <= query.keys()
+    link = f"http://192.168.100.100:8501/Two_maps?{urlencode(query)}"
+    assert len(link) < 300
+    assert int(re.search(r"0 0 (\d+)", qr_svg(link))[1]) <= 69
 
 
 @pytest.mark.parametrize("place", [{"step": "x"}, {"pin": "1"}, {"speed": "7"}])

@@ -21,6 +21,7 @@ PLAYER_KEY = "map_player"
 TWO_MAPS_KEY = "two_maps"
 HOME_KEY = "home_player"
 TWO_MAPS_PATH = "pages/3_Two_maps.py"
+HOME_PATH = "app.py"
 OF_COLUMN = ("p_wall", "p_space", "uninformative", "rule")
 """Settings of the app that the single map's player holds."""
 SHARED = (*OF_COLUMN, "overlay", "columns")
@@ -36,8 +37,8 @@ NEW_PLAYED = {
 
 def player_here() -> str:
     """The key of the player that a link to this page speaks of."""
-    is_two = st.session_state.get("path") == TWO_MAPS_PATH
-    return TWO_MAPS_KEY if is_two else PLAYER_KEY
+    players = {TWO_MAPS_PATH: TWO_MAPS_KEY, HOME_PATH: HOME_KEY}
+    return players.get(st.session_state.get("path", ""), PLAYER_KEY)
 
 
 def player_document(key: str) -> PlayerDocument:
@@ -110,8 +111,8 @@ def forget_player() -> None:
 
 
 def opening_step(key: str, building: Building) -> int:
-    """The step at which a player opens: the middle of the replay; two maps at 0."""
-    return 0 if key == TWO_MAPS_KEY else len(building.trajectory) // 2
+    """The step at which a player opens: one map half-way, several at 0."""
+    return len(building.trajectory) // 2 if key == PLAYER_KEY else 0
 
 
 def open_players(building: Building) -> None:
@@ -145,6 +146,8 @@ def place_in_replay(building: Building) -> dict[str, str]:
         texts["pin"] = ",".join(f"{at:g}" for at in played.pin_px)
     if played.speed is not None:
         texts["speed"] = str(played.speed)
+    if key == HOME_KEY and played.columns != HOME_COLUMNS:
+        texts["home_rule"] = played.columns[0].rule.value
     return texts
 
 
@@ -159,6 +162,9 @@ def go_to_place(texts: Mapping[str, str]) -> None:
     with contextlib.suppress(ValueError):
         if "pin" in texts:
             commit["pin_px"] = [float(at) for at in texts["pin"].split(",")]
+    if key == HOME_KEY and "home_rule" in texts:
+        for column in commit["columns"]:
+            column["rule"] = texts["home_rule"]
     st.session_state.played = st.session_state.played | {
         key: decode_commit(commit, played)
     }
