@@ -153,6 +153,8 @@ def test_a_range_finder_simulates_and_maps(name):
     assert counts.any()
     assert 0 <= finder.min_range_m < finder.max_range_m
     assert len(finder.source) > 40
+    values = {name: getattr(finder, name) for name in finder.not_stated}
+    assert values.get("min_range_m", 0.0) == 0.0
     with pytest.raises(ParameterError, match="metres_per_px must be above 0"):
         finder.sensor(0)
 
@@ -174,3 +176,11 @@ def test_a_range_finder_has_the_figures_of_its_sheet(name, step_deg, at_m, sigma
     assert step == pytest.approx(step_deg, rel=0.01)
     noise = finder.noise(metres_per_px=1.0)
     assert noise.sigma_px(at_m) == pytest.approx(sigma_m, rel=0.02)
+
+
+def test_only_a_kinect_and_a_sick_come_with_a_standard_deviation():
+    """Nguyen et al. measured the one, SICK states the other; the rest is accuracy."""
+    stated = {
+        k for k, one in RANGE_FINDERS.items() if "sigma_0_m" not in one.not_stated
+    }
+    assert stated == {"kinect", "lms200"}

@@ -178,7 +178,7 @@ def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
 
 
 def unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
-    """Return unit vectors (2, P) of bearings, (P,), relative to headings, rad."""
+    """Return unit vectors (2, ...) of bearings, (...), relative to headings, rad."""
     # A full turn ends where it began, to the last bit: its seam must cancel.
     absolute = np.where(bearing >= np.pi, -np.pi, bearing) + theta
     return np.array([np.cos(absolute), np.sin(absolute)])

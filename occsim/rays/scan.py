@@ -96,16 +96,33 @@ def windows_around(view: View, grid: Grid) -> Windows:
     """
     # Along x, then along y.
     centre, axis = np.array([view.x, view.y]), np.array([[0.0], [0.5 * np.pi]])
-    n_cells = np.array([[grid.n_cols], [grid.n_rows]])
     off = np.abs(wrap_angle(view.theta - axis))
     farthest = np.cos(np.maximum(off - view.half, 0.0))
     nearest = np.cos(np.minimum(off + view.half, np.pi))
-    low = centre + view.reach * np.minimum(nearest, 0.0) - 1.0
-    high = centre + view.reach * np.maximum(farthest, 0.0) + 1.0
+    low = centre + view.reach * np.minimum(nearest, 0.0)
+    high = centre + view.reach * np.maximum(farthest, 0.0)
+    return windows_between(low, high, grid)
+
+
+def windows_between(low: FloatArray, high: FloatArray, grid: Grid) -> Windows:
+    """Return windows of cells that hold rectangles.
+
+    Parameters
+    ----------
+    low, high : ndarray of float64, shape (2, N)
+        Corners (x, y) of the rectangles, px.
+    grid : Grid
+        All cells.
+
+    Returns
+    -------
+    Windows
+    """
+    n_cells = np.array([[grid.n_cols], [grid.n_rows]])
     # Far outside the image, cells would overflow whole numbers.
     first, last = (
         np.minimum(np.maximum(np.floor(end / grid.cell_px), 0), n_cells - 1)
-        for end in (low, high)
+        for end in (low - 1.0, high + 1.0)
     )
     length = (last - first).max(axis=1, keepdims=True) + 1
     first_col, first_row = np.minimum(first, n_cells - length).astype(np.int64)
@@ -231,22 +248,25 @@ def closed_polygons(
     -------
     Polygons
     """
-    differs = reading[1:] != reading[:-1]
-    first, last = run_ends(differs)
-    follows = (~differs).nonzero()[0]
+    first, last = run_ends(reading[1:] != reading[:-1])
     # Back past the robot at a tiny distance, clockwise to anticlockwise side.
     turns = view.half * _HALVES
     absolute = np.where(turns >= np.pi, -np.pi, turns) + view.theta
     turned = OWN_RADIUS_PX * np.array([np.cos(absolute), np.sin(absolute)])
-    past = [end[:, last], *turned.transpose(1, 0, 2), start[:, first]]
-    flat, arc = (~is_arc).nonzero()[0], is_arc.nonzero()[0]
+    past = [*turned.transpose(1, 0, 2), start[:, first]]
+    # From each piece to the next, from the last of a reading past the robot.
+    following = np.empty_like(start)
+    following[:, :-1] = start[:, 1:]
+    following[:, last] = past[0]
+    flat = (~is_arc).nonzero()[0]
     straight = Edges(
-        np.concatenate(
-            [reading[flat], reading[follows], *[reading[first]] * (len(past) - 1)]
-        ),
-        np.concatenate([start[:, flat], end[:, follows], *past[:-1]], axis=1),
-        np.concatenate([end[:, flat], start[:, follows + 1], *past[1:]], axis=1),
+        np.concatenate([reading, reading[flat], *[reading[first]] * (len(past) - 1)]),
+        np.concatenate([end, start[:, flat], *past[:-1]], axis=1),
+        np.concatenate([following, end[:, flat], *past[1:]], axis=1),
     )
+    if flat.size == 0:
+        return Polygons(straight, Edges(reading, start, end, radius))
+    arc = is_arc.nonzero()[0]
     if isinstance(radius, np.ndarray):
         radius = radius[arc]
     return Polygons(straight, Edges(reading[arc], start[:, arc], end[:, arc], radius))
@@ -280,13 +300,16 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray
     col = _whole_within(np.ceil(x), grid.width_px)
     cell, within = _cells_of_pixels(max(grid.height_px, grid.width_px), grid.cell_px)
     counter = base[reading] + cell[row] * windows.n_cols + cell[col]
-    changes = windows.sums(counter, sign)
+    # Each change counts for its whole cell and all right of it, but in its own cell not
+    # for the pixels left of it. One counter more: nothing is left of the spare column.
+    changes = np.zeros(windows.size + 1, dtype=np.int32)
+    left = sign * within[col]
+    np.add.at(changes, counter, sign * np.int32(grid.cell_px) - left)
+    if grid.cell_px > 1:
+        np.add.at(changes, counter + 1, left)
+    changes = changes[:-1]
     by_row = changes.reshape(-1, windows.n_cols)
     np.cumsum(by_row, axis=1, out=by_row)
-    if grid.cell_px > 1:
-        # Each change counts for its whole cell, less the pixels left of it.
-        changes *= grid.cell_px
-        changes -= windows.sums(counter, sign * within[col])
     return changes
 
 
@@ -317,10 +340,15 @@ def _crossings(
         +1 where the inside lies to the right, -1 where to the left.
     """
     shift = view.y[edges.reading] - 0.5
-    rows = [
-        _whole_within(np.ceil(end[1] + shift), grid.height_px)
-        for end in (edges.start, edges.end)
-    ]
+    rows = np.array(
+        [
+            _whole_within(np.ceil(end[1] + shift), grid.height_px)
+            for end in (edges.start, edges.end)
+        ]
+    )
+    # Between narrow beams most edges cross no line.
+    crosses = (rows[0] != rows[1]).nonzero()[0]
+    rows, shift = rows[:, crosses], shift[crosses]
     edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
     # Bearings ascend clockwise: falling edges (y grows) have the inside on their left,
     # and of the arcs those are the ones on the right.
@@ -330,14 +358,15 @@ def _crossings(
         y = row - shift[edge]
         radius = edges.radius
         if isinstance(radius, np.ndarray):
-            radius = radius[edge]
+            radius = radius[crosses][edge]
         x = -sign * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
     else:
         # From the upper end whichever way it is walked: the two sides of the seam of
         # a full turn then cancel to the last bit.
-        top = np.where(falls, edges.start, edges.end)
-        width, height = edges.end - edges.start
+        start, end = edges.start[:, crosses], edges.end[:, crosses]
+        top = np.where(falls, start, end)
+        width, height = end - start
         slope = width / np.where(height == 0.0, 1.0, height)
         x = top[0][edge] + (row - (shift + top[1])[edge]) * slope[edge]
-    reading = edges.reading[edge]
+    reading = edges.reading[crosses][edge]
     return reading, row, x + (view.x[reading] - 0.5), sign

@@ -17,7 +17,7 @@ from occsim.evidence import (
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.rays.reach import View
-from occsim.rays.scan import Windows, count_pixels, windows_around
+from occsim.rays.scan import Windows, count_pixels
 from occsim.rays.surface import robots_on_centres
 from occsim.scan.log import ScanLog
 from occsim.scan.sectors import (
@@ -27,6 +27,7 @@ from occsim.scan.sectors import (
     polygons,
     scan_view,
     view_radii,
+    windows_of,
 )
 from occsim.sensor import OWN_PIXEL_EPS_PX, Sensor
 
@@ -154,13 +155,12 @@ def count_scans(
     -------
     PixelCounts
     """
-    windows = windows_around(view, grid)
     pieces = cut_pieces(sectors, view)
+    farthest = view_radii(ranges_px, sensor, view)
+    windows = windows_of(pieces, farthest, view, grid)
     n_empty, in_view = (
-        count_pixels(
-            polygons(pieces, radii(ranges_px, sensor, view), view), windows, view
-        )
-        for radii in (empty_radii, view_radii)
+        count_pixels(polygons(pieces, radii, view), windows, view)
+        for radii in (empty_radii(ranges_px, sensor, view), farthest)
     )
     n_object = np.subtract(in_view, n_empty, out=in_view)
     for counters, counter in zip(

@@ -29,6 +29,9 @@ class RangeFinder:
         Standard deviation of a range, as in `ScanNoise`.
     source : str
         Where the figures stand, and how they were taken.
+    not_stated : tuple of str
+        Names of the figures that the source does not state: a least distance, taken as
+        0, or a standard deviation, for which an accuracy or a resolution is taken.
 
     Examples
     --------
@@ -36,6 +39,8 @@ class RangeFinder:
     >>> lidar = RANGE_FINDERS["rplidar-a1"]
     >>> lidar.sensor(metres_per_px=0.05).range_px, lidar.n_beams
     (240.0, 360)
+    >>> lidar.not_stated
+    ('sigma_0_m', 'sigma_2_per_m')
     """
 
     title: str
@@ -47,6 +52,7 @@ class RangeFinder:
     sigma_2_per_m: float
     sigma_from_m: float
     source: str
+    not_stated: tuple[str, ...] = ()
 
     def sensor(
         self, metres_per_px: float, behind_hit: BehindHit = BehindHit.UNSEEN
@@ -88,6 +94,9 @@ class RangeFinder:
         )
 
 
+_SIGMA = ("sigma_0_m", "sigma_2_per_m")
+
+
 def _degrees(angle: float) -> float:
     return float(np.radians(angle))
 
@@ -103,8 +112,10 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.0012,
             sigma_2_per_m=0.0019,
             sigma_from_m=0.4,
-            source="Microsoft, Kinect for Windows SDK 1.8: 57 degrees, 0.8 to 4 m, 640 "
-            "columns; sigma: Nguyen, Izadi and Lovell, 3DIMPVT 2012",
+            source="Microsoft, Kinect for Windows SDK 1.8, 'Sensor Components and "
+            "Specifications' (57 degrees) and 'DepthRange Enumeration' (default range, "
+            "0.8 to 4 m); 640 columns; sigma: Nguyen, Izadi and Lovell, 'Modeling Kinect "
+            "Sensor Noise for Improved 3D Reconstruction and Tracking', 3DIMPVT 2012",
         ),
         "urg-04lx": RangeFinder(
             title="Hokuyo URG-04LX",
@@ -115,8 +126,11 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.010,
             sigma_2_per_m=0.0032,
             sigma_from_m=1.0,
-            source="Hokuyo, URG-04LX specifications and C-42-03320B (SCIP 2.0): steps "
-            "44 to 725 of 1024; accuracy 10 mm to 1 m, 1 % to 4.095 m, taken as sigma",
+            source="Hokuyo, 'Communication Protocol Specification for SCIP 2.0', "
+            "C-42-03320B, table 2: steps 44 to 725 of 1024; 'Scanning Laser Range "
+            "Finder URG-04LX Specifications': 60 to 4095 mm, accuracy 10 mm to 1 m and "
+            "1 % beyond, taken as sigma",
+            not_stated=_SIGMA,
         ),
         "utm-30lx": RangeFinder(
             title="Hokuyo UTM-30LX",
@@ -127,8 +141,11 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.030,
             sigma_2_per_m=0.00005,
             sigma_from_m=10.0,
-            source="Hokuyo, UTM-30LX specification and C-42-03320B (SCIP 2.0): steps 0 "
-            "to 1080 of 1440; accuracy 30 mm to 10 m, 50 mm to 30 m, taken as sigma",
+            source="Hokuyo, 'Communication Protocol Specification for SCIP 2.0', "
+            "C-42-03320B, table 2: steps 0 to 1080 of 1440; 'Scanning Laser Range "
+            "Finder UTM-30LX Specification': 0.1 to 30 m, accuracy 30 mm to 10 m and "
+            "50 mm beyond, taken as sigma",
+            not_stated=_SIGMA,
         ),
         "lms200": RangeFinder(
             title="SICK LMS200",
@@ -139,8 +156,10 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.005,
             sigma_2_per_m=0.0,
             sigma_from_m=0.0,
-            source="SICK, LMS200 technical description: 180 degrees in steps of 0.5, "
-            "80 m; statistical error 5 mm (one sigma, 1 to 8 m)",
+            source="SICK, 'Technical Description LMS200, LMS211, LMS221, LMS291': 180 "
+            "degrees in steps of 0.5, at most 80 m (8 m in steps of 1 mm); statistical "
+            "error 5 mm, one sigma, from 1 to 8 m, here taken at any distance",
+            not_stated=("min_range_m",),
         ),
         "rplidar-a1": RangeFinder(
             title="Slamtec RPLIDAR A1",
@@ -151,9 +170,11 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.0005,
             sigma_2_per_m=0.00083,
             sigma_from_m=0.0,
-            source="Slamtec, RPLIDAR A1M8 data sheet, rev. 1.0 of 2016-07-04: 360 "
-            "samples a scan, 0.15 to 12 m; resolution 0.5 mm, 1 % at 12 m, taken as "
-            "sigma",
+            source="Slamtec, 'RPLIDAR A1 Introduction and Datasheet, Model A1M8', rev. "
+            "1.0, 2016: 0.15 to 12 m, 360 samples a scan at 5.5 Hz; it has no accuracy; "
+            "the resolution, 0.5 mm below 1.5 m and 1 % of any distance, is taken as "
+            "sigma, 0.5 mm near and 1 % at 12 m",
+            not_stated=_SIGMA,
         ),
         "hc-sr04": RangeFinder(
             title="HC-SR04 sonar",
@@ -164,10 +185,18 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_0_m=0.003,
             sigma_2_per_m=0.0,
             sigma_from_m=0.0,
-            source="ElecFreaks, HC-SR04 user guide: measuring angle 15 degrees, 2 cm "
-            "to 4 m, accuracy 3 mm, taken as sigma",
+            source="ElecFreaks, 'Ultrasonic Ranging Module HC-SR04': measuring angle "
+            "15 degrees, 2 cm to 4 m; the accuracy 'can reach' 3 mm, taken as sigma",
+            not_stated=_SIGMA,
         ),
     }
 )
 """By a short name. Sheets state an accuracy more often than a standard deviation; it
-is taken as one, which is on the safe side."""
+is taken as one, and `not_stated` says so.
+
+Examples
+--------
+>>> from occsim import RANGE_FINDERS
+>>> [name for name, one in RANGE_FINDERS.items() if one.max_range_m >= 30.0]
+['utm-30lx', 'lms200']
+"""

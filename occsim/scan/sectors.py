@@ -7,9 +7,16 @@ import numpy as np
 
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import wrap_angle
+from occsim.grid import Grid
 from occsim.rays.outline import SLIVER_RAD, cardinal_cuts, run_ends, unit_vectors
 from occsim.rays.reach import REACH_MAX_PX, View
-from occsim.rays.scan import OWN_RADIUS_PX, Polygons, closed_polygons
+from occsim.rays.scan import (
+    OWN_RADIUS_PX,
+    Polygons,
+    Windows,
+    closed_polygons,
+    windows_between,
+)
 from occsim.sensor import EDGE_EPS, SURFACE_DEPTH_PX, BehindHit, Sensor
 
 WRAP_SLACK = 1.01
@@ -75,8 +82,8 @@ class Pieces:
     ----------
     reading : ndarray of int64, shape (P,)
         Scan of the batch, ascending; within one, bearings ascend without a gap.
-    sector : ndarray of int64, shape (P,)
-        Sector of the piece, 0 to B - 1.
+    beam : ndarray of int64, shape (P,)
+        Beam of the piece, counted through all scans: 0 to N * B - 1.
     turns : ndarray of int64, shape (P,)
         Cardinal bearings passed since the first piece.
     start, end : ndarray of float64, shape (2, P)
@@ -84,7 +91,7 @@ class Pieces:
     """
 
     reading: IntArray
-    sector: IntArray
+    beam: IntArray
     turns: IntArray
     start: FloatArray
     end: FloatArray
@@ -124,16 +131,16 @@ def cut_pieces(sectors: Sectors, view: View) -> Pieces:
     order = cuts.argsort(axis=1, kind="stable")
     cuts = np.take_along_axis(cuts, order, axis=1)
     begins = (order < n_bounds).cumsum(axis=1)
-    begin, end = cuts[:, :-1], cuts[:, 1:]
-    reading, place = np.nonzero(end - begin > SLIVER_RAD)
-    begins = begins[reading, place]
-    theta = view.theta[reading]
+    corner = unit_vectors(cuts, view.theta[:, None]).reshape(2, -1)
+    reading, place = np.nonzero(cuts[:, 1:] - cuts[:, :-1] > SLIVER_RAD)
+    cut = reading * (n_bounds + 4) + place
+    begins = begins.ravel()[cut]
     return Pieces(
         reading=reading,
-        sector=begins - 1,
+        beam=reading * (n_bounds - 1) + begins - 1,
         turns=place + 1 - begins,
-        start=unit_vectors(begin[reading, place], theta),
-        end=unit_vectors(end[reading, place], theta),
+        start=corner.take(cut, axis=1),
+        end=corner.take(cut + 1, axis=1),
     )
 
 
@@ -206,17 +213,43 @@ def polygons(pieces: Pieces, radii: FloatArray, view: View) -> Polygons:
     -------
     Polygons
     """
-    radius = radii[pieces.reading, pieces.sector]
+    radius = radii.ravel()[pieces.beam]
     first, last = run_ends(_differs(pieces, radius))
     radius = radius[first]
     return closed_polygons(
         pieces.reading[first],
-        pieces.start[:, first] * radius,
-        pieces.end[:, last] * radius,
+        pieces.start.take(first, axis=1) * radius,
+        pieces.end.take(last, axis=1) * radius,
         radius > OWN_RADIUS_PX,
         radius,
         view,
     )
+
+
+def windows_of(pieces: Pieces, radii: FloatArray, view: View, grid: Grid) -> Windows:
+    """Return windows of cells that hold sectors that reach to the given radii.
+
+    Parameters
+    ----------
+    pieces, radii, view
+        As in `polygons`.
+    grid : Grid
+        All cells.
+
+    Returns
+    -------
+    Windows
+    """
+    first, _ = run_ends(pieces.reading[1:] != pieces.reading[:-1])
+    radius = radii.ravel()[pieces.beam]
+    # Of an arc within a quadrant, the ends lie farthest along either axis.
+    start, end = pieces.start * radius, pieces.end * radius
+    robot = np.array([view.x, view.y])
+    low, high = (
+        robot + beyond(beyond.reduceat(beyond(start, end), first, axis=1), 0.0)
+        for beyond in (np.minimum, np.maximum)
+    )
+    return windows_between(low, high, grid)
 
 
 def _differs(pieces: Pieces, radius: FloatArray) -> BoolArray:
