@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages._ui import controls, replays, shell, state, uploads, words
+from pages._ui import controls, limits, replays, shell, state, uploads, words
 from pages._ui.components.player import map_player
 
 EQUATIONS = r"""
@@ -33,14 +33,12 @@ def _controls() -> None:
         for name in ("cell_px", "range_px", "fov_deg"):
             controls.slider(name, width=controls.NARROW_PX)
         controls.drawing_errors()
-        with st.popover("More settings"):
-            controls.presets()
-            controls.radio("behind_hit")
-            controls.toggle("clear_no_hit")
-            controls.slider("wall_share")
-            controls.slider("truth_share")
-        with st.popover("Upload"):
-            uploads.panel()
+        controls.more(
+            *("presets", "behind_hit", "clear_no_hit", "wall_share", "truth_share")
+        )
+        if not state.limits().drawing:
+            with st.popover("Upload"):
+                uploads.panel()
 
 
 def _notices() -> None:
@@ -100,5 +98,6 @@ with shell.page("pages/1_Build_a_map.py") as lesson:
         key=key,
         held=state.parts_held(key),
         fixed=settings.page_choices,
+        limits=state.limits_of(limits.OF_ONE_MAP),
     )
     _words()

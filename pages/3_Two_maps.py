@@ -3,7 +3,7 @@
 import streamlit as st
 
 from occsim import OccsimError
-from pages._ui import controls, replays, shell, state, uploads
+from pages._ui import controls, limits, replays, shell, state, uploads
 from pages._ui.components.player import Replay, map_player
 from pages._ui.examples import examples
 from pages._ui.settings import Settings
@@ -76,5 +76,6 @@ with shell.page("pages/3_Two_maps.py") as lesson:
         key=key,
         held=state.parts_held(key),
         examples=examples(replay.drawings),
+        limits=state.limits_of(limits.OF_SEVERAL),
     )
     _words()

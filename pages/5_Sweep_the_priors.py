@@ -14,14 +14,11 @@ with shell.page("pages/5_Sweep_the_priors.py") as lesson:
         controls.segments("surface")
         controls.segments("drawings")
         controls.drawing_errors()
-        with st.popover("More settings"):
-            controls.presets()
-            if state.settings().surface is not Surface.SOURCE:
-                controls.select("fineness")
-            for name in ("region", "behind_hit"):
-                controls.radio(name)
-            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
-                controls.slider(name)
+        is_fine = state.settings().surface is not Surface.SOURCE
+        controls.more(
+            *("presets", *(("fineness",) if is_fine else ()), "region", "behind_hit"),
+            *("range_px", "fov_deg", "wall_share", "truth_share"),
+        )
 
     with st.container(horizontal=True, vertical_alignment="center"):
         controls.thinning()

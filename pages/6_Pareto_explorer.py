@@ -13,12 +13,10 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.segments("exploring")
         controls.drawing_errors()
-        with st.popover("More settings"):
-            controls.presets()
-            for name in ("behind_hit", "region"):
-                controls.radio(name)
-            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
-                controls.slider(name)
+        controls.more(
+            *("presets", "behind_hit", "region"),
+            *("range_px", "fov_deg", "wall_share", "truth_share"),
+        )
 
     with st.container(horizontal=True, vertical_alignment="center"):
         controls.thinning()

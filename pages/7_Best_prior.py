@@ -12,12 +12,10 @@ with shell.page("pages/7_Best_prior.py") as lesson:
         controls.slider("cell_px", width=controls.NARROW_PX)
         controls.slider("min_recall", width=controls.NARROW_PX)
         controls.drawing_errors()
-        with st.popover("More settings"):
-            controls.presets()
-            for name in ("rule", "behind_hit"):
-                controls.radio(name)
-            for name in ("range_px", "fov_deg", "wall_share", "truth_share"):
-                controls.slider(name)
+        controls.more(
+            *("presets", "rule", "behind_hit"),
+            *("range_px", "fov_deg", "wall_share", "truth_share"),
+        )
 
     run = compute.run(state.building(), state.settings())
     if run.notice:

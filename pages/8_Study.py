@@ -11,10 +11,7 @@ with shell.page("pages/8_Study.py") as lesson:
         controls.select("study_rule", width=480)
         controls.select("region", width=190)
         controls.select("behind_hit", width=270)
-        with st.popover("More settings"):
-            controls.slider("wall_share")
-            controls.slider("truth_share")
-            controls.slider("min_recall")
+        controls.more("wall_share", "truth_share", "min_recall")
 
     shell.truth_notice()
     cases = studying.run_all()

@@ -86,14 +86,14 @@ def test_it_is_judged_by_what_the_student_has_set():
 
 
 def test_more_than_the_pages_simulate_is_not_simulated_for_a_check():
-    app = opened("see_more")
+    app = opened("seen_and_missed")
     predict(app)
     wide = {"range_px": 300, "fov_deg": 360, "cell_px": 1}
     settings = app.session_state["settings"]
     app.session_state["settings"] = compute.with_changes(settings, wide)
     press(app, "Check")
     assert "are simulated here" in "\n".join(said(app.error))
-    assert app.session_state["attempts"]["see_more"].n_checks == 0
+    assert app.session_state["attempts"]["seen_and_missed"].n_checks == 0
 
 
 def test_hints_come_one_by_one():

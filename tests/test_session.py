@@ -52,7 +52,8 @@ def session(monkeypatch):
         session_state = Kept()
         query_params = type("Query", (), {"to_dict": lambda self: {}})()
 
-    for module in (chosen, edits, state.lens, state.replay, state.widgets, state.pairs):
+    more = state.lens, state.replay, state.widgets, state.pairs
+    for module in (chosen, edits, state.held, state.opening, *more):
         monkeypatch.setattr(module, "st", Streamlit)
     monkeypatch.setattr(
         chosen.compute,

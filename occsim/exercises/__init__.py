@@ -6,10 +6,11 @@ its set-up, does not hold at its witness, or holds at its wrong answer.
 
 from occsim.exercises.exercise import Check, Exercise, Question, Verdict, judge
 from occsim.exercises.facts import Context, Facts
-from occsim.exercises.load import load_exercise, load_exercises
+from occsim.exercises.load import CONTROLS, load_exercise, load_exercises
 from occsim.exercises.state import ExerciseState, changed
 
 __all__ = [
+    "CONTROLS",
     "Check",
     "Context",
     "Exercise",

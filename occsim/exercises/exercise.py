@@ -101,8 +101,9 @@ class Exercise:
         The state in which it opens.
     settings : mapping
         The values that the set-up names, as written.
-    show, lock : tuple of str
-        Controls that stay, and controls that cannot be moved.
+    show, lock, hide : tuple of str
+        Controls that stay, if only some do; those that cannot be moved; and controls
+        and outputs that are not seen.
     prediction : Question or None
         Asked first, stored and not judged.
     questions : tuple of Question
@@ -133,6 +134,7 @@ class Exercise:
     settings: Mapping[str, Any] = field(default_factory=dict)
     show: tuple[str, ...] = ()
     lock: tuple[str, ...] = ()
+    hide: tuple[str, ...] = ()
     prediction: Question | None = None
     questions: tuple[Question, ...] = ()
     reason: Question | None = None

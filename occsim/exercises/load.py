@@ -36,6 +36,14 @@ PAGES = (
 )
 _POINTED = ("cell", "lens_cell", "lens_pose")
 """Settings without a control of their own: one points at the map."""
+CONTROLS = (
+    *(name for name in SETTINGS if name not in (*_POINTED, "step")),
+    *FLAWS,
+    *("transport", "errors", "scores", "ladder"),
+)
+"""What can be shown, locked and hidden: settings, the transport of the replay, the
+errors shown on the map; and two outputs, which vanish only where they are hidden: the
+scores, and a cell's readings one by one."""
 _KEYS = {
     *("id", "title", "lesson", "minutes", "page", "goal", "open", "other", "lineup"),
     *("setup", "controls", "predict", "question", "reason", "check", "near_miss"),
@@ -146,8 +154,9 @@ def _exercise(given: Mapping[str, Any], name: str) -> Exercise:
         minutes=_whole(given, "minutes"),
         setup=changed(ExerciseState(), settings),
         settings=settings,
-        show=tuple(controls.get("show", ())),
-        lock=tuple(controls.get("lock", ())),
+        show=_names(controls, "show"),
+        lock=_names(controls, "lock"),
+        hide=_names(controls, "hide"),
         prediction=_question(given.get("predict"), "predict"),
         questions=tuple(
             _asked(one, _text(one, "name")) for one in _rows(given, "question")
@@ -198,6 +207,19 @@ def _table(given: Mapping[str, Any], key: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise ParameterError(f"{key} must be a table; got {shown(value)}")
     return value
+
+
+def _names(controls: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    names = controls.get(key, [])
+    if not isinstance(names, list):
+        raise ParameterError(f"{key} must be a list of controls; got {shown(names)}")
+    for name in names:
+        if name not in CONTROLS:
+            raise ParameterError(
+                f"there is no control called {shown(name)}; the controls are "
+                f"{', '.join(CONTROLS)}"
+            )
+    return tuple(names)
 
 
 def _rows(given: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
@@ -330,5 +352,6 @@ def _require_reachable(made: Exercise, witness: Mapping[str, Any]) -> None:
         control = "transport" if name == "step" else name
         if control in made.lock:
             raise ParameterError(f"the witness moves {control}, which is locked")
-        if made.show and control not in made.show:
+        is_hidden = made.show and control not in made.show
+        if is_hidden or control in made.hide:
             raise ParameterError(f"the witness moves {control}, which is hidden")

@@ -30,7 +30,7 @@ from occsim import (
 from occsim._types import BoolArray, FloatArray
 from occsim.building import Building, random_trajectory
 from occsim.corrections import pack_mask
-from occsim.exercises import Exercise, load_exercises
+from occsim.exercises import Exercise, load_exercise, load_exercises
 from occsim.imaging import Drawing
 from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
@@ -147,6 +147,16 @@ def exercises() -> tuple[Exercise, ...]:
     """The exercises of this app, each proven."""
     with core():
         return load_exercises(EXERCISES)
+
+
+@shared("Proving the exercises of the class")
+def own_exercises(texts: tuple[str, ...]) -> tuple[Exercise, ...]:
+    """Exercises of a teacher, each proven; they are numbered in their order."""
+    with core():
+        return tuple(
+            load_exercise(text.encode(), name=f"{number:02}_own")
+            for number, text in enumerate(texts, start=1)
+        )
 
 
 # --- Priors: sweeps and fronts --------------------------------------------------------

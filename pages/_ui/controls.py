@@ -1,7 +1,9 @@
 """Widgets tied to settings: one declared table gives bounds, words and units."""
 
+import functools
+from collections.abc import Callable
 from enum import Enum
-from typing import Literal
+from typing import Any, Literal
 
 import streamlit as st
 
@@ -16,8 +18,30 @@ CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
 NARROW_PX = 165
 """Two sliders of this width stand side by side on a telephone of 390 px."""
 DRAWING_PX = 250
+MANY = 4
+"""So many options stand in a list that opens."""
 
 
+def shown(name: str) -> bool:
+    """Whether a control is on the page; one that is hidden is noted, to be told."""
+    if not state.limits().hides(name):
+        return True
+    state.note_hidden(name)
+    return False
+
+
+def _may_be_hidden(draw: Callable[..., None]) -> Callable[..., None]:
+    """Draw the control of a setting only where nobody has hidden it."""
+
+    @functools.wraps(draw)
+    def draw_shown(name: str, *args: Any, **options: Any) -> None:
+        if shown(name):
+            draw(name, *args, **options)
+
+    return draw_shown
+
+
+@_may_be_hidden
 def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     """Draw the slider of a numeric setting."""
     setting = TABLE[name]
@@ -43,6 +67,7 @@ def _unit(name: str) -> str:
     return f" ({unit})" if unit else ""
 
 
+@_may_be_hidden
 def toggle(name: str) -> None:
     """Draw the switch of a setting that is on or off."""
     st.toggle(
@@ -52,6 +77,7 @@ def toggle(name: str) -> None:
     )
 
 
+@_may_be_hidden
 def radio(name: str) -> None:
     """Draw the options of a setting that is a choice."""
     options: list[Enum] = list(type(getattr(state.settings(), name)))
@@ -64,6 +90,7 @@ def radio(name: str) -> None:
     )
 
 
+@_may_be_hidden
 def segments(name: str) -> None:
     """Draw the options of a setting that is a choice, side by side."""
     options: list[Enum] = list(type(getattr(state.settings(), name)))
@@ -77,6 +104,7 @@ def segments(name: str) -> None:
     )
 
 
+@_may_be_hidden
 def select(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     """Draw the options of a setting that is a choice, in a list that opens."""
     options: list[Enum] = list(type(getattr(state.settings(), name)))
@@ -90,6 +118,7 @@ def select(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     )
 
 
+@_may_be_hidden
 def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     """Draw the box of a whole number."""
     setting = TABLE[name]
@@ -104,8 +133,31 @@ def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     )
 
 
+def more(*names: str) -> None:
+    """Draw the settings that few move, behind a button; without any, not even that."""
+    if not [name for name in names if shown(name)]:
+        return
+    with st.popover("More settings"):
+        for name in names:
+            if name == "presets":
+                presets()
+            else:
+                _kind(getattr(state.settings(), name))(name)
+
+
+def _kind(value: object) -> Callable[[str], None]:
+    """The kind of control that a setting has where nothing else is said."""
+    if isinstance(value, bool):
+        return toggle
+    if isinstance(value, Enum):
+        return select if len(type(value)) >= MANY else radio
+    return slider
+
+
 def presets() -> None:
     """Draw the named sets of conditions, and say what departs from the nearest one."""
+    if not shown("presets"):
+        return
     settings = state.settings()
     with st.container(width="content"):
         st.segmented_control(
@@ -141,6 +193,8 @@ NO_ERRORS = {name: getattr(Settings(), name) for name in (*ERRORS, "prior_drawin
 
 def drawing_errors() -> None:
     """Draw the group in which the drawing that the prior is made from gets errors."""
+    if not [name for name in (*ERRORS, "prior_drawing") if shown(name)]:
+        return
     building, settings = state.building(), state.settings()
     has_errors = compute.prior_mask(building, settings) is not None
     with st.popover(f"Drawing's errors{': on' if has_errors else ''}"):
@@ -150,7 +204,7 @@ def drawing_errors() -> None:
         )
         left, right = st.columns(2, gap="medium")
         with left:
-            _prior_drawing(building)
+            _prior_drawing("prior_drawing", building)
             st.image(
                 compute.errors_picture(building, settings),
                 width="stretch",
@@ -161,7 +215,7 @@ def drawing_errors() -> None:
                 "No errors",
                 on_click=state.change,
                 kwargs=NO_ERRORS,
-                disabled=not has_errors,
+                disabled=not has_errors or "thickness_px" in state.limits().held,
             )
         with right:
             for name in ERRORS:
@@ -182,20 +236,24 @@ def thin_walls(has_errors: bool) -> str:
 
 def thinning() -> None:
     """Draw a button that thins the drawn walls by 2 px, or takes all errors off."""
+    if not shown("thickness_px"):
+        return
     has_errors = compute.prior_mask(state.building(), state.settings()) is not None
     st.button(
         AS_IT_IS if has_errors else THIN,
         on_click=state.change,
         kwargs=NO_ERRORS if has_errors else THINNED,
+        disabled="thickness_px" in state.limits().held,
         help="Walls thinner than the building's: a hypothesis on how the source found "
         "its own.",
     )
 
 
-def _prior_drawing(building: Building) -> None:
-    setting = TABLE["prior_drawing"]
+@_may_be_hidden
+def _prior_drawing(name: str, building: Building) -> None:
+    setting = TABLE[name]
     options = compute.prior_drawings(building)
-    bound = state.bind("prior_drawing", options)
+    bound = state.bind(name, options)
     st.selectbox(
         setting.label,
         options,
@@ -207,6 +265,8 @@ def _prior_drawing(building: Building) -> None:
 
 def drawing_choice() -> None:
     """Draw the choice between the reference drawings and the student's own."""
+    if not shown("drawing"):
+        return
     titles = {name: state.drawing_title(name) for name in state.choices()}
     st.selectbox(
         "Drawing",

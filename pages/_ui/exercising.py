@@ -5,7 +5,7 @@ from functools import partial
 import streamlit as st
 
 from occsim.exercises import Exercise, Question
-from pages._ui import compute, state, words
+from pages._ui import state, words
 from pages._ui.state import exercise as kept
 
 FOLDER_PAGES = {
@@ -28,17 +28,9 @@ RULE_WORDS = {
 """Options that are words of a check, as they are shown."""
 
 
-def active() -> Exercise | None:
-    """The exercise that is open; None if there is none."""
-    wanted = kept.exercise_id()
-    if wanted is None:
-        return None
-    return next((one for one in compute.exercises() if one.id == wanted), None)
-
-
 def panel(path: str) -> None:
     """Draw the exercise that is open, on its page."""
-    exercise = active()
+    exercise = state.active()
     if exercise is None or FOLDER_PAGES[exercise.page] != path:
         return
     kept.watch(exercise)
@@ -46,7 +38,8 @@ def panel(path: str) -> None:
         task, answer = st.columns([3, 2], gap="large")
         with task:
             st.markdown(
-                f"**Exercise {exercise.number}: {exercise.title}.** {exercise.goal}"
+                f"**Exercise {exercise.number}: {exercise.title}{_stop(exercise)}** "
+                f"{words.maths(exercise.goal)}"
             )
             _hints(exercise)
         with answer:
@@ -54,6 +47,14 @@ def panel(path: str) -> None:
                 _questions(exercise)
                 _verdict(exercise)
         _buttons(exercise)
+
+
+def _shown(option: str) -> str:
+    return RULE_WORDS.get(option, option)
+
+
+def _stop(exercise: Exercise) -> str:
+    return "" if exercise.title.endswith("?") else "."
 
 
 def _has_predicted(exercise: Exercise) -> bool:
@@ -65,6 +66,7 @@ def _has_predicted(exercise: Exercise) -> bool:
         f"Predict. {words.maths(question.text)}",
         question.options,
         index=None,
+        format_func=_shown,
         **state.bind_view(f"predict_{exercise.id}", None),
     )
     if first is None:
@@ -91,7 +93,7 @@ def _ask(exercise: Exercise, question: Question) -> None:
             label,
             question.options,
             index=question.options.index(before) if before else None,
-            format_func=lambda option: RULE_WORDS.get(option, option),
+            format_func=_shown,
             key=key,
         )
     else:
@@ -106,7 +108,7 @@ def _hints(exercise: Exercise) -> None:
 def _verdict(exercise: Exercise) -> None:
     attempt = kept.attempt_of(exercise)
     if attempt.is_solved:
-        first = f" You predicted: {attempt.first}." if attempt.first else ""
+        first = f" You predicted: {_shown(attempt.first)}." if attempt.first else ""
         st.success(f"Solved.{first} {words.maths(exercise.after)}")
         return
     verdict = attempt.verdict
@@ -145,7 +147,7 @@ def _buttons(exercise: Exercise) -> None:
 
 def all_exercises() -> None:
     """The exercises, what was solved of them, and the progress as a file."""
-    found = compute.exercises()
+    found = state.exercises()
     solved = sum(kept.attempt_of(one).is_solved for one in found)
     judged = sum(not one.is_open for one in found)
     st.progress(solved / judged, text=f"{solved} of {judged} solved")

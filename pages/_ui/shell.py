@@ -186,7 +186,10 @@ def page(path: str) -> Iterator[Lesson]:
         st.warning(state.link_notice(path))
     with _last_resort(path):
         exercising.panel(path)
+        told = st.container()
         yield lesson
+        with told:
+            _tell_limits()
     _ending()
 
 
@@ -205,6 +208,14 @@ def _last_resort(path: str) -> Iterator[None]:
         )
         if state.can_undo():
             st.button("Undo the last change", on_click=state.undo)
+
+
+def _tell_limits() -> None:
+    """Say what is not on this page, which is known once it is drawn."""
+    hidden, held = len(state.not_drawn()), state.limits()
+    if hidden:
+        what = "1 control is" if hidden == 1 else f"{hidden} controls are"
+        st.caption(f"{what} hidden by {held.by}.")
 
 
 def fragment(part: Callable[..., None]) -> Callable[..., None]:

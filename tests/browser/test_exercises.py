@@ -2,6 +2,9 @@
 
 import pytest
 
+from occsim.exercises import load_exercises
+from pages._ui.compute import EXERCISES
+
 pytestmark = pytest.mark.browser
 
 
@@ -31,3 +34,74 @@ def test_what_was_solved_outlives_a_reload(page, app_url):
     )
     page.goto(f"{app_url}/Exercises")  # a new session of the server
     page.get_by_text("1 of 22 solved").wait_for()
+
+
+def opened(page, app_url, name, path="Build_a_map"):
+    page.goto(f"{app_url}/{path}?exercise={name}")
+    page.wait_for_selector(".player[data-ready='1']")
+    return page.locator(".player")
+
+
+def test_the_rule_that_is_to_be_found_out_is_not_seen(page, app_url):
+    player = opened(page, app_url, "which_rule")
+    page.get_by_text("controls are hidden by exercise 15").wait_for()
+    seen = player.inner_text()
+    for word in ("Update rule", "Precision", "Recall", "F2", "log-odds after each"):
+        assert word not in seen
+    assert player.locator("[data-slider=p_wall] input").is_enabled()
+    # A pinned cell has its numbers, but not the ladder, which would tell the rule.
+    player.locator("[data-pane=map] canvas").click(position={"x": 200, "y": 180})
+    player.locator("[data-part=cell-facts]").get_by_text("readings k").wait_for()
+    assert "Prior" in player.inner_text()
+    assert not player.locator(".terms").is_visible()
+    assert "rule=" not in page.url
+
+
+def test_a_locked_rule_is_seen_and_does_not_move(page, app_url):
+    player = opened(page, app_url, "run_the_control")
+    assert player.locator("input[name=rule][value=subtract_prior]").is_disabled()
+    assert player.locator("[data-part=uninformative]").is_disabled()
+    player.locator("[data-slider=p_wall] input").fill("0.12")
+    assert player.locator("[data-slider=p_wall] .value").inner_text() == "0.12"
+    # An edited link does not move it either, and the scores stay.
+    page.wait_for_url("**p_wall=0.12**")
+    page.goto(page.url + "&rule=subtract_prior&uninformative=1")
+    page.wait_for_selector(".player[data-ready='1']")
+    assert player.locator("input[name=rule][value=prior_once]").is_checked()
+    assert not player.locator("[data-part=uninformative]").is_checked()
+    assert player.get_by_text("Precision").first.is_visible()
+
+
+def test_an_exercise_of_the_transport_alone_can_be_played(page, app_url):
+    player = opened(page, app_url, "first_wall")
+    assert not player.locator("[data-slider=p_wall]").is_visible()
+    player.get_by_role("button", name="One reading forward").click()
+    assert player.locator("[data-part=counter]").inner_text().startswith("reading")
+
+
+@pytest.mark.parametrize(
+    "name", ["first_wall", "which_rule", "run_the_control", "upside_down"]
+)
+def test_no_answer_is_sent_before_it_is_asked_for(page, app_url, name):
+    """Nor in what the page does not show: all that the server sends is looked at."""
+    exercise = next(one for one in load_exercises(EXERCISES) if one.id == name)
+    sent = []
+    page.on(
+        "websocket",
+        lambda socket: socket.on(
+            "framereceived",
+            lambda frame: sent.append(
+                frame if isinstance(frame, bytes) else frame.encode()
+            ),
+        ),
+    )
+    opened(page, app_url, name)
+    page.get_by_role("button", name="Hint").wait_for()
+    everything = b"".join(sent)
+    assert exercise.title.encode() in everything
+    for answer in (exercise.after, *exercise.hints):
+        assert answer.strip().encode() not in everything
+    page.get_by_role("button", name="Hint").click()
+    page.get_by_text("Hint.").wait_for()
+    assert exercise.hints[0].encode() in b"".join(sent)
+    assert exercise.hints[1].encode() not in b"".join(sent)

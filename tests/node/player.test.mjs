@@ -34,7 +34,8 @@ function playerOf(changes = {}) {
   const scene = { nReadings: 40, pixels };
   const logs = new Map([["log", column.log]]);
   const state = { ...DOCUMENT, ...changes };
-  const p = { root, scene, logs, columns: [column], state, playing: false, tab: "scores" };
+  const header = { hidden: [], locked: [] };
+  const p = { root, header, scene, logs, columns: [column], state, playing: false, tab: "scores" };
   player.fitState(p);
   player.seek(column.log, p.state.step);
   return p;
@@ -75,6 +76,19 @@ test("a replay stops at its last reading, once, and says so", () => {
   assert.deepEqual([p.state.step, p.playing, committed], [40, false, [40]]);
   assert.equal(player.pause(p), false);
 });
+
+for (const limits of [
+  { hidden: ["transport"], locked: [] },
+  { hidden: [], locked: ["transport"] },
+]) {
+  test(`a replay that is held is moved by no key: ${JSON.stringify(limits)}`, () => {
+    const p = playerOf({ step: 7 });
+    p.header = limits;
+    player.play(p);
+    player.walkTo(p, 20);
+    assert.deepEqual([p.state.step, p.playing, committed], [7, false, []]);
+  });
+}
 
 test("play at the end starts anew", () => {
   const p = playerOf({ step: 40 });

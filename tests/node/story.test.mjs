@@ -44,7 +44,7 @@ function storyOf(changes = {}) {
   const p = {
     root: { querySelector: () => ({}), focus: () => {} },
     scene: { nReadings: 40 },
-    header: { constants: CONSTANTS, texts: { story: STORY } },
+    header: { constants: CONSTANTS, texts: { story: STORY }, hidden: [], locked: [] },
     logs: new Map(),
     columns: walls.map((isWall) => player.newColumn(log, isWall, CONSTANTS)),
     state: { ...state, ...changes },

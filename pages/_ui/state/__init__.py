@@ -7,21 +7,21 @@ to the components on the page. Everything else is computed from these.
 
 from pages._ui.state.chosen import (
     OPENING,
-    OWN,
     YOUR_BUILDING,
     building,
     change,
     choice,
     choices,
     choose,
-    defaults,
     drawing_title,
     fit_columns,
     link_notice,
+    open_class,
     prepare,
     query,
     reset_all,
     settings,
+    state_texts,
     visited,
     work_key,
 )
@@ -40,7 +40,17 @@ from pages._ui.state.edits import (
     set_range_to_door,
     undo,
 )
+from pages._ui.state.held import (
+    active,
+    class_now,
+    exercises,
+    limits,
+    limits_of,
+    not_drawn,
+    note_hidden,
+)
 from pages._ui.state.lens import LENS_KEY, LENS_PATH, lens_document, take_from_lens
+from pages._ui.state.opening import OWN, defaults
 from pages._ui.state.pairs import (
     choose_pair,
     keep_search,
@@ -71,6 +81,15 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "state_texts",
+    "open_class",
+    "note_hidden",
+    "not_drawn",
+    "limits",
+    "limits_of",
+    "exercises",
+    "class_now",
+    "active",
     "HOME_KEY",
     "LENS_KEY",
     "LENS_PATH",

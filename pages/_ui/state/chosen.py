@@ -11,8 +11,13 @@ from occsim import load_sample, sample_names
 from occsim.building import Building
 from pages._ui import compute
 from pages._ui.choices import SECTIONS, PriorDrawing
-from pages._ui.settings import TABLE, Settings, decode, encode, with_changes
+from pages._ui.classroom.kept import CLASSES, typed
+from pages._ui.classroom.prepared import ClassError, Prepared, unpacked
+from pages._ui.settings import Settings, decode, encode, with_changes
+from pages._ui.state import opening
+from pages._ui.state.held import class_drawing, class_now, keep_settings, limits
 from pages._ui.state.lens import forget_lens, lens_in_link, open_lens, reset_lens
+from pages._ui.state.opening import OWN, defaults
 from pages._ui.state.replay import (
     NEW_PLAYED,
     SHARED,
@@ -25,7 +30,6 @@ from pages._ui.state.replay import (
 )
 from pages._ui.state.works import WORKS
 
-OWN = "own"
 YOUR_BUILDING = "pages/2_Your_building.py"
 SECTION_NUMBERS = [str(number) for number in range(1, len(SECTIONS) + 1)]
 OPENING = "b"
@@ -67,11 +71,12 @@ def _open_page_drawing(path: str) -> None:
 def _open_link(path: str, query: Mapping[str, str]) -> None:
     """Start a session from a link; it is read once."""
     state = st.session_state
+    notices = _enter_class(query)
+    query = {**_class_texts(), **query}
     state.own, state.work = None, None
     state.path = path
     state.message, state.generation = "", 0
     state.past = state.future = ()
-    notices = []
     if "work" in query:
         state.own = WORKS.find(query["work"])
         state.work = query["work"], state.own
@@ -83,11 +88,14 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
         wrong.append("drawing")
         asked = opening
     state.choice = OWN if state.own and "drawing" not in query else asked
-    state.chosen = state.choice == OWN or "drawing" in query
-    state.settings, more = decode(query, defaults(state.choice))
-    wrong += more
     asked = query.get("exercise", "")
     state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
+    held = limits().drawing
+    state.choice = held or state.choice
+    state.chosen = state.choice == OWN or "drawing" in query or bool(held)
+    found, more = decode(query, defaults(state.choice))
+    keep_settings(found)
+    wrong += more
     state.played = dict(NEW_PLAYED)
     open_players(building())
     go_to_place(query)
@@ -113,12 +121,12 @@ def link_notice(path: str) -> str:
     return words if path == opened else ""
 
 
-def defaults(name: str) -> Settings:
-    """The settings that a drawing opens with: the range is the length of its doors."""
-    own = st.session_state.own if name == OWN else load_sample(name)
-    door_px = own.door_px or own.sensor.range_px
-    bounds = TABLE["range_px"]
-    return Settings(range_px=round(min(max(door_px, bounds.low), bounds.high)))
+def base() -> Settings:
+    """The settings that this session's drawing opens with, those of its class first."""
+    prepared = class_now()
+    if prepared is not None and class_drawing(prepared) == choice():
+        return opening.of_class(prepared, choice())
+    return defaults(choice())
 
 
 def settings() -> Settings:
@@ -128,14 +136,14 @@ def settings() -> Settings:
 
 def change(**changes: Any) -> None:
     """Replace some settings; the player follows if it shows one of them."""
-    st.session_state.settings = with_changes(settings(), changes)
+    keep_settings(with_changes(settings(), changes))
     if any(name in SHARED for name in changes):
         forget_player()
 
 
 def reset_all() -> None:
     """Return to the chosen drawing's opening settings; an own building is kept."""
-    st.session_state.settings = defaults(choice())
+    keep_settings(base())
     state = st.session_state
     state.link_notice = state.link_notice[0], ""
     renew_widgets()
@@ -163,7 +171,16 @@ def query() -> dict[str, str]:
     place = place_in_replay(building()) | _section() | lens_in_link()
     exercise = st.session_state.get("exercise")
     open_one = {} if exercise is None else {"exercise": exercise}
-    return where | encode(settings(), defaults(name)) | place | open_one
+    said = encode(settings(), limits().kept(base()))
+    return where | said | place | open_one | class_in_link()
+
+
+def state_texts() -> dict[str, str]:
+    """Return what a link says of the drawing, the settings and the place alone."""
+    name = choice()
+    where = {} if name == OWN else {"drawing": name}
+    place = place_in_replay(building()) | lens_in_link()
+    return where | encode(settings(), defaults(name)) | place
 
 
 def _section() -> dict[str, str]:
@@ -190,6 +207,50 @@ def work_key() -> str | None:
     return state.work[0]
 
 
+# --- The class ------------------------------------------------------------------------
+
+NO_CLASS = (
+    "The class of this link is not on this server: the code is mistyped, the server "
+    "was restarted, or the class has expired. Ask your teacher for the long link."
+)
+
+
+def _enter_class(query: Mapping[str, str]) -> list[str]:
+    """Take over the class that a link names; return what was wrong with it."""
+    state = st.session_state
+    state.prepared, state.class_link = None, {}
+    code, text = query.get("class"), query.get("plan")
+    try:
+        found = unpacked(text) if text else CLASSES.find(typed(code or ""))
+    except ClassError as error:
+        return [f"{error}."]
+    if found is None:
+        return [NO_CLASS] if code else []
+    state.prepared = found
+    state.class_link = {"plan": text} if text else {"class": typed(code or "")}
+    return []
+
+
+def _class_texts() -> Mapping[str, str]:
+    prepared = class_now()
+    return {} if prepared is None else prepared.texts
+
+
+def class_in_link() -> dict[str, str]:
+    """What a link says of the class."""
+    return st.session_state.get("class_link", {})
+
+
+def open_class(code: str) -> Prepared | None:
+    """Enter the class of a code that was typed; None if there is none."""
+    prepared = CLASSES.find(typed(code))
+    if prepared is not None:
+        _open_link(prepared.page, {"class": code})
+        renew_widgets()
+        forget_lens()
+    return prepared
+
+
 # --- The building -----------------------------------------------------------------
 
 
@@ -207,6 +268,8 @@ def choose(name: str) -> None:
     """Choose a drawing; the sensor's range follows the length of its doors."""
     if name not in choices():
         return  # a choice made before an undo that removed the drawing
+    if limits().drawing not in ("", name):
+        return
     st.session_state.chosen = True
     _show(name)
 
@@ -214,7 +277,7 @@ def choose(name: str) -> None:
 def _show(name: str) -> None:
     st.session_state.choice = name
     range_px = defaults(name).range_px
-    st.session_state.settings = replace(settings(), range_px=range_px)
+    keep_settings(replace(settings(), range_px=range_px))
     open_players(building())
 
 

@@ -20,6 +20,7 @@ from pages._ui.state.chosen import (
     renew_widgets,
     settings,
 )
+from pages._ui.state.held import keep_settings, limits
 from pages._ui.state.packed import Packed
 from pages._ui.state.replay import forget_player
 
@@ -87,6 +88,7 @@ def _snapshot() -> Snapshot:
 
 def set_own(own: Building) -> None:
     """Keep a student's own building and show it; the settings stay."""
+    _require_free_drawing()
     st.session_state.own = own
     st.session_state.choice = OWN
     forget_player()
@@ -94,8 +96,15 @@ def set_own(own: Building) -> None:
 
 def open_own(own: Building) -> None:
     """Use a new building, with its own sensor range."""
+    _require_free_drawing()
     st.session_state.own = own
     choose(OWN)
+
+
+def _require_free_drawing() -> None:
+    held = limits()
+    if held.drawing not in ("", OWN):
+        raise OccsimError(f"The drawing was chosen by {held.by} and stays.")
 
 
 def edit_building(**changes: Any) -> None:
@@ -111,7 +120,8 @@ def set_range_to_door() -> None:
 def open_project(own: Building, texts: Mapping[str, str]) -> None:
     """Take over the building and the settings of a project file."""
     open_own(own)
-    st.session_state.settings, _ = decode(texts)
+    found, _ = decode(texts)
+    keep_settings(found)
     renew_widgets()
 
 
@@ -235,7 +245,7 @@ def _restore(left: Snapshot, entered: Snapshot) -> None:
     """Go from one side of an edit to the other; parts that it left alone stay."""
     state = st.session_state
     own = entered.own
-    state.choice = entered.choice
+    state.choice = limits().drawing or entered.choice
     state.own = own.opened() if isinstance(own, Packed) else own
     names = [one.name for one in fields(Settings)]
     changes = {

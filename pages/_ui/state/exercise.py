@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import streamlit as st
@@ -19,15 +19,16 @@ from occsim.exercises import (
 from occsim.prior import PRIOR_SCALE
 from occsim.samples import sample_names
 from pages._ui import compute
-from pages._ui.columns import FLAWS, Column
-from pages._ui.settings import TABLE, Settings, column_with, with_changes
+from pages._ui.columns import FLAWS
+from pages._ui.settings import Settings
+from pages._ui.state import opening
 from pages._ui.state.chosen import (
     building,
     choice,
     choose,
-    defaults,
     renew_widgets,
 )
+from pages._ui.state.held import keep_settings, limits
 from pages._ui.state.lens import LensDocument, set_lens, take_from_lens
 from pages._ui.state.replay import (
     PLAYER_KEY,
@@ -90,22 +91,22 @@ def exercise_id() -> str | None:
 
 
 def leave_exercise() -> None:
-    """Close the exercise; what was set stays."""
+    """Close the exercise; what was set stays, but for what the class holds."""
     st.session_state.exercise = None
+    if limits().drawing:
+        choose(limits().drawing)
+    keep_settings(st.session_state.settings)
+    forget_player()
 
 
 def open_exercise(exercise: Exercise) -> None:
     """Set everything as an exercise opens; settings it does not name are defaults."""
     state = st.session_state
     state.exercise = exercise.id
-    given = dict(exercise.settings)
-    choose(given.get("drawing", exercise.setup.drawing))
-    own = {name: value for name, value in given.items() if name in TABLE}
-    state.settings = with_changes(defaults(choice()), own)
-    if exercise.page == "two_maps":
-        state.settings = replace(state.settings, columns=_columns(exercise))
+    choose(exercise.setup.drawing)
+    keep_settings(opening.of_exercise(exercise))
     if exercise.page == LENS_PAGE:
-        set_lens(_lens(exercise.setup))
+        set_lens(opening.lens_of_exercise(exercise))
     key = _player_of(exercise)
     last = exercise.setup.step
     n_readings = len(building().trajectory)
@@ -133,43 +134,6 @@ def _player_of(exercise: Exercise) -> str:
 def _middle(cell: tuple[int, int], cell_px: int) -> tuple[float, float]:
     row, col = cell
     return (col + 0.5) * cell_px, (row + 0.5) * cell_px
-
-
-def _columns(exercise: Exercise) -> tuple[Column, ...]:
-    """Map A is the student's; map B the reference of the exercise, or no drawing."""
-    own = _column(exercise.settings)
-    reference = exercise.context.reference
-    other = _column(reference) if reference else Column(uninformative=True)
-    return own, other
-
-
-def _column(given: Mapping[str, Any]) -> Column:
-    names = {one.name for one in fields(Column)}
-    return column_with(
-        Column(), {name: value for name, value in given.items() if name in names}
-    )
-
-
-def _lens(setup: ExerciseState) -> LensDocument:
-    """The lens as an exercise opens it."""
-    x, y, degrees = setup.lens_pose
-    made = LensDocument(
-        x_px=x,
-        y_px=y,
-        heading_deg=degrees,
-        cell_px=setup.lens_cell_px,
-        behind_hit=setup.behind_hit,
-        clear_no_hit=setup.clear_no_hit,
-        fov_deg=round(setup.fov_deg),
-        p_free=setup.prior.p_free_wall,
-        rule=setup.rule,
-    )
-    if setup.range_px is not None:
-        made = replace(made, range_px=round(setup.range_px))
-    if setup.lens_cell is None:
-        return made
-    row, col = setup.lens_cell
-    return replace(made, row=row, col=col)
 
 
 def _from_lens(document: LensDocument) -> dict[str, Any]:

@@ -12,11 +12,21 @@ from pages._ui.components.lens.document import (
     link_texts,
     with_texts,
 )
+from pages._ui.state import opening
+from pages._ui.state.held import active, class_now, limits
 
 LENS_KEY = "lens"
 LENS_PATH = "pages/0_What_the_sensor_says.py"
-PREFIX = "lens_"
-"""Of the lens's names in a link."""
+HELD_BY = {
+    "range_px": "range_px",
+    "fov_deg": "fov_deg",
+    "behind_hit": "behind_hit",
+    "clear_no_hit": "clear_no_hit",
+    "rule": "rule",
+    "cell_px": "lens_cell_px",
+    "p_free": "p_wall",
+}
+"""The control that holds a field of the lens."""
 
 
 def lens_document() -> LensDocument:
@@ -49,22 +59,38 @@ def take_from_lens() -> LensDocument:
     """
     state = st.session_state
     commit = (state.get(LENS_KEY) or {}).get("committed")
-    state.lens_chosen = decode_commit(commit, lens_document())
+    state.lens_chosen = _kept(decode_commit(commit, lens_document()))
     return state.lens_chosen
 
 
 def open_lens(query: Mapping[str, str]) -> list[str]:
     """Open the lens as a link says; return the names to which it gives wrong values."""
-    texts = {name.removeprefix(PREFIX): text for name, text in _ours(query)}
-    st.session_state.lens_chosen, wrong = with_texts(OPENING, texts)
+    found, wrong = with_texts(OPENING, opening.lens_texts(query))
+    st.session_state.lens_chosen = _kept(found)
     forget_lens()
-    return [PREFIX + name for name in wrong]
+    return [opening.LENS_PREFIX + name for name in wrong]
+
+
+def _kept(document: LensDocument) -> LensDocument:
+    """Put back what the exercise or the class holds."""
+    held = limits().held
+    exercise, prepared = active(), class_now()
+    if not held.intersection(HELD_BY.values()):
+        return document
+    if exercise is not None:
+        own = opening.lens_of_exercise(exercise)
+    else:
+        own = opening.lens_of_class(prepared) if prepared else OPENING
+    values = {
+        field: getattr(own, field) for field, name in HELD_BY.items() if name in held
+    }
+    return replace(document, **values)
 
 
 def reset_lens() -> None:
     """Return to the opening; the revision goes on, so that late commits are ignored."""
     st.session_state.lens_chosen = replace(
-        OPENING, rev=st.session_state.lens_chosen.rev
+        _kept(OPENING), rev=st.session_state.lens_chosen.rev
     )
     forget_lens()
 
@@ -74,8 +100,4 @@ def lens_in_link() -> dict[str, str]:
     if st.session_state.get("path") != LENS_PATH:
         return {}
     texts = link_texts(st.session_state.lens_chosen)
-    return {PREFIX + name: text for name, text in texts.items()}
-
-
-def _ours(query: Mapping[str, str]) -> list[tuple[str, str]]:
-    return [(name, text) for name, text in query.items() if name.startswith(PREFIX)]
+    return {opening.LENS_PREFIX + name: text for name, text in texts.items()}

@@ -16,6 +16,7 @@ from pages._ui.components.player import (
     held_parts,
 )
 from pages._ui.settings import Settings, with_changes
+from pages._ui.state.held import keep_settings, limits
 
 PLAYER_KEY = "map_player"
 TWO_MAPS_KEY = "two_maps"
@@ -76,8 +77,9 @@ def take_from_player(key: str) -> PlayerDocument:
     if key == HOME_KEY:
         document = replace(document, columns=_home_columns(document))
     else:
-        changes = _to_settings(key, document)
-        state.settings = with_changes(state.settings, changes)
+        if "transport" in limits().held:
+            document = replace(document, step=player_document(key).step)
+        keep_settings(with_changes(state.settings, _to_settings(key, document)))
     state.played = state.played | {key: document}
     return document
 
@@ -156,7 +158,8 @@ def go_to_place(texts: Mapping[str, str]) -> None:
     key = player_here()
     played: PlayerDocument = st.session_state.played[key]
     commit = encode_document(played)
-    for name in ("step", "speed"):
+    given = ("speed",) if "transport" in limits().held else ("step", "speed")
+    for name in given:
         with contextlib.suppress(ValueError):
             commit |= {name: int(texts[name])} if name in texts else {}
     with contextlib.suppress(ValueError):

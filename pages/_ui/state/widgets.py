@@ -9,11 +9,12 @@ import streamlit as st
 from pages._ui import presets
 from pages._ui.state.chosen import change, choice, choose, settings
 from pages._ui.state.edits import attempt, edit
+from pages._ui.state.held import limits
 from pages._ui.state.pairs import choose_pair
 
 
 def bind(name: str, options: Sequence[Any] = ()) -> dict[str, Any]:
-    """Return ``key`` and ``on_change`` that tie a widget to a setting.
+    """Return the options that tie a widget to a setting, disabled where it is locked.
 
     The widget's own value is set from the setting before each run, so that leaving the
     page, a reset and a share link all show in it. Where the setting is none of the
@@ -22,7 +23,15 @@ def bind(name: str, options: Sequence[Any] = ()) -> dict[str, Any]:
     key = renewed(f"control_{name}")
     held = getattr(settings(), name)
     st.session_state[key] = options[0] if options and held not in options else held
-    return {"key": key, "on_change": _take, "args": (name, key)}
+    return _bound(key, _take, name, key) | _locked(name)
+
+
+def _bound(key: str, take: Callable[..., None], *args: Any) -> dict[str, Any]:
+    return {"key": key, "on_change": take, "args": args}
+
+
+def _locked(name: str) -> dict[str, bool]:
+    return {"disabled": name in limits().held}
 
 
 def renewed(name: str) -> str:
@@ -36,10 +45,10 @@ def _take(name: str, key: str) -> None:
 
 
 def bind_choice() -> dict[str, Any]:
-    """Return ``key`` and ``on_change`` that tie a select box to the chosen drawing."""
+    """Return the options that tie a select box to the chosen drawing."""
     key = renewed("control_choice")
     st.session_state[key] = choice()
-    return {"key": key, "on_change": _take_choice, "args": (key,)}
+    return _bound(key, _take_choice, key) | _locked("drawing")
 
 
 def _take_choice(key: str) -> None:
@@ -48,10 +57,10 @@ def _take_choice(key: str) -> None:
 
 
 def bind_preset() -> dict[str, Any]:
-    """Return ``key`` and ``on_change`` that tie a widget to the preset in force."""
+    """Return the options that tie a widget to the preset in force."""
     key = renewed("control_preset")
     st.session_state[key] = presets.current(settings())
-    return {"key": key, "on_change": _take_preset, "args": (key,)}
+    return _bound(key, _take_preset, key) | _locked("presets")
 
 
 def _take_preset(key: str) -> None:

@@ -28,6 +28,7 @@ from pages._ui.components.lens.document import (
     LensDocument,
     to_texts,
 )
+from pages._ui.limits import NONE, Limits
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
@@ -69,7 +70,7 @@ CONSTANTS = {
 }
 
 
-def lens(document: LensDocument, *, key: str) -> None:
+def lens(document: LensDocument, *, key: str, limits: Limits = NONE) -> None:
     """Show the lens; `decode_commit` reads what it commits.
 
     Parameters
@@ -78,17 +79,21 @@ def lens(document: LensDocument, *, key: str) -> None:
         The imposed document; the same one from run to run, see `map_player`.
     key : str
         Key of the component: the last commit is its state "committed".
+    limits : Limits
+        What is hidden and locked.
     """
     component(COMPONENT, FOLDER, SCRIPTS)(
-        key=key, data=lens_data(document, key), on_committed_change=keep_state
+        key=key, data=lens_data(document, key, limits), on_committed_change=keep_state
     )
 
 
-def lens_data(document: LensDocument, key: str) -> str:
+def lens_data(document: LensDocument, key: str, limits: Limits = NONE) -> str:
     """Return what the browser gets, as JSON."""
     header = {
         "key": key,
         "document": {"rev": document.rev, **to_texts(document)},
+        "hidden": sorted(limits.hidden),
+        "locked": sorted(limits.locked),
         "world": picture_of(lens_world()),
         "constants": CONSTANTS,
         "limits": {"range": RANGE_PX, "fov": FOV_DEG, "prior": P_FREE},

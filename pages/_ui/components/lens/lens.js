@@ -40,6 +40,7 @@ function receive(p, header) {
   const isSame = p.header.document.rev === header.document.rev && p.state;
   p.header = header;
   p.theme = themeOf(p.root);
+  obeyLimits(p.root, header);
   if (!isSame) {
     const known = remembered.get(header.key);
     p.state = known?.rev === header.document.rev ? known : stateOf(header.document);

@@ -127,6 +127,8 @@ function placePrior({ root, state, line, header }) {
 }
 
 function setPrior(p, prior) {
+  const { hidden, locked } = p.header;
+  if ([...hidden, ...locked].includes("p_wall")) return;
   const [low, high] = p.header.limits.prior;
   p.state.prior = clamp(Math.round(100 * prior) / 100, low, high);
   showAdding(p);

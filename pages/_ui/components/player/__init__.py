@@ -26,6 +26,7 @@ from pages._ui.components.player.document import (
     held_parts,
 )
 from pages._ui.components.player.texts import COLOURS, TEXTS, header_words
+from pages._ui.limits import NONE, Limits
 from pages._ui.settings import TABLE
 
 __all__ = [
@@ -54,6 +55,7 @@ SCRIPTS = (
     "curves.js",
     "terms.js",
     "feet.js",
+    "limits.js",
     "playback.js",
     "controls.js",
     "inspector.js",
@@ -107,6 +109,7 @@ def map_player(
     held: Collection[str] = (),
     fixed: Mapping[str, object] | None = None,
     examples: Sequence[tuple[str, tuple[Column, ...]]] = (),
+    limits: Limits = NONE,
 ) -> None:
     """Show the player.
 
@@ -136,10 +139,12 @@ def map_player(
         Fields of every column that the page chooses, not the player.
     examples : sequence of (str, tuple of Column)
         Settings of several maps that a button each sets.
+    limits : Limits
+        What is hidden and locked; Python holds the values, the player its controls.
     """
     component(COMPONENT, FOLDER, SCRIPTS)(
         key=key,
-        data=player_data(replay, document, key, held, fixed, examples),
+        data=player_data(replay, document, key, held, fixed, examples, limits),
         on_committed_change=keep_state,
     )
 
@@ -151,12 +156,15 @@ def player_data(
     held: Collection[str] = (),
     fixed: Mapping[str, object] | None = None,
     examples: Sequence[tuple[str, tuple[Column, ...]]] = (),
+    limits: Limits = NONE,
 ) -> bytes:
     """Return what the browser gets: the header, and the parts that it does not hold."""
     parts = [{"kind": p.kind, "name": p.name, "id": p.id} for p in replay.parts]
     header = {
         "key": key,
         "digest": f"{zlib.crc32(repr((replay.base, parts, fixed)).encode()):x}",
+        "hidden": sorted(limits.hidden),
+        "locked": sorted(limits.locked),
         "base": replay.base,
         "parts": parts,
         "document": encode_document(document),

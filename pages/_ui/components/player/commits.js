@@ -23,7 +23,7 @@ function say({ root }, words) {
 function stateWords(p) {
   const { step, compact } = p.state;
   if (compact) return `${stepWords(p)}: ${storyWords(p)}`;
-  const maps = p.columns.map(({ series }, i) => {
+  const maps = isHidden(p, "scores") ? [] : p.columns.map(({ series }, i) => {
     const scores = p.header.texts.scores.map(
       ({ name, label, unit }) => `${label} ${UNITS[unit].text(series.looked[name][step])}`,
     );

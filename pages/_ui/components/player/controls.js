@@ -63,7 +63,7 @@ function showSlider(p, name) {
   const chosen = setting[name].toFixed(2);
   const factors = `${column.priorScale} \u00d7 ${chosen} = ${pFree.toFixed(3)}`;
   const { uninformative } = setting;
-  Object.assign(box.querySelector("input"), { value: setting[name], disabled: uninformative });
+  Object.assign(box.querySelector("input"), { value: setting[name], disabled: uninformative || isLocked(p, name) });
   box.classList.toggle("off", uninformative);
   box.querySelector(".value").textContent = chosen;
   box.querySelector("small").replaceChildren(...maths(`p_free = ${uninformative ? pFree : factors}`));

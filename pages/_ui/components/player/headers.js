@@ -51,11 +51,11 @@ function wordLabel(words, setting, word) {
 }
 
 // What all maps share, in words.
-function agreement(words, settings) {
+function agreement(words, settings, seen = WORDS) {
   const isBlank = ({ uninformative }) => uninformative;
   // A map without a drawing shares no pair; of errors, only one with a drawing tells.
   const isShared = (word) => !differs(settings, word) && !(word === "pair" && settings.some(isBlank));
-  const same = WORDS.filter(isShared);
+  const same = seen.filter(isShared);
   const first = settings.find((setting) => !isBlank(setting)) ?? settings[0];
   const labels = same.map((word) => wordLabel(words, first, word));
   const readings = same.includes("behind_hit") && same.includes("cell_px") ? "readings" : "tour";
@@ -111,20 +111,24 @@ function chooseWord(p, i, word, value) {
 function showHeaders(p) {
   const { columns: settings } = p.state;
   const { words } = p.header.texts;
-  setText(partOf(p.root, "same"), agreement(words, settings));
+  const seen = WORDS.filter((word) => !isWordHidden(p, word));
+  setText(partOf(p.root, "same"), agreement(words, settings, seen));
   settings.forEach((setting, i) => {
     const header = p.root.querySelector(`[data-header="${i}"]`);
     for (const box of header.querySelectorAll(".word")) {
       const word = box.dataset.for;
       const isBold = differs(settings, word);
       const isMain = MAIN_WORDS.includes(word) && !(word === "pair" && setting.uninformative);
-      box.hidden = !(isMain || isBold || p.open === i);
+      box.hidden = !seen.includes(word) || !(isMain || isBold || p.open === i);
+      box.lastChild.disabled = isWordLocked(p, word);
       box.classList.toggle("differs", isBold);
       setText(box.firstChild, wordLabel(words, setting, word));
       if (word === "pair") fillPairs(p, box.lastChild, setting);
       else box.lastChild.value = wordValue(setting, word);
     }
-    header.querySelector(".more").setAttribute("aria-expanded", String(p.open === i));
+    const more = header.querySelector(".more");
+    more.hidden = !MORE_WORDS.some((word) => seen.includes(word));
+    more.setAttribute("aria-expanded", String(p.open === i));
     showHand(p, header, setting, i);
   });
 }
@@ -141,5 +145,8 @@ function fillPairs(p, select, setting) {
 function showHand(p, header, setting, i) {
   const hand = header.querySelector(".hand");
   hand.hidden = !p.byHand[i] || setting.uninformative;
-  for (const input of hand.querySelectorAll("input")) input.value = setting[input.dataset.hand];
+  for (const input of hand.querySelectorAll("input")) {
+    input.value = setting[input.dataset.hand];
+    input.disabled = isLocked(p, input.dataset.hand);
+  }
 }

@@ -127,7 +127,8 @@ function cellWords(column, c) {
 // ---- the panels below the stage --------------------------------------------------------
 
 function showTab(p) {
-  const { root, pin, tab } = p;
+  const { root, pin } = p;
+  const tab = openTabOf(p);
   for (const button of root.querySelectorAll("[data-tab]")) {
     button.setAttribute("aria-selected", String(button.dataset.tab === tab));
   }

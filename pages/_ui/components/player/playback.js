@@ -37,7 +37,7 @@ function stopOf(p) {
 }
 
 function play(p) {
-  if (p.playing || !p.columns) return;
+  if (p.playing || !p.columns || isLocked(p, "transport")) return;
   if (p.state.step >= p.scene.nReadings) goTo(p, 0);
   p.position = p.state.step;
   p.playing = true;
@@ -78,6 +78,7 @@ function togglePlay(p) {
 
 // A step by hand: stops the replay and is committed to Python.
 function walkTo(p, step) {
+  if (isLocked(p, "transport")) return;
   pause(p);
   goTo(p, step);
   commit(p, COMMIT_DELAY);

@@ -125,6 +125,7 @@ function take(p, header) {
   for (const setting of p.state.columns) Object.assign(setting, header.fixed);
   for (const column of p.columns ?? []) column.key = null; // the step may be another
   Object.assign(p, { header, hover: null, finalF2: null });
+  showLimits(p);
   learnParts(p, header);
   p.scene = partNamed(p, "scene ") ?? p.scene;
   p.theme = themeOf(p.root);

@@ -22,6 +22,18 @@ const partOf = (root, name) => root.querySelector(`[data-part=${name}]`);
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
+// What an exercise or a teacher hides and locks: Python holds the values, the controls
+// obey. Each names itself; what is hidden cannot be moved by a key either.
+function obeyLimits(root, { hidden, locked }) {
+  for (const box of root.querySelectorAll("[data-control]")) {
+    const name = box.dataset.control;
+    box.hidden = hidden.includes(name);
+    const isLocked = box.hidden || locked.includes(name);
+    const inputs = box.matches("button") ? [box] : box.querySelectorAll("button, input, select");
+    for (const input of inputs) input.disabled = isLocked;
+  }
+}
+
 // Canvas pixels to one CSS pixel.
 const pixelRatio = () => Math.min(3, window.devicePixelRatio || 1);
 

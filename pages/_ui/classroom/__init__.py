@@ -1,0 +1,1 @@
+"""A class: what a teacher prepares, votes, and what students hand in."""

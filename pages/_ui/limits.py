@@ -1,0 +1,145 @@
+"""What a student sees and may move: one table of controls, and the limits on them.
+
+A control that is hidden or locked keeps its value: `Limits.kept` puts it back wherever
+settings are set, so that neither an edited link nor a component moves it. Nothing here
+depends on Streamlit.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+
+from occsim.exercises import CONTROLS, Exercise
+from pages._ui.columns import Column
+from pages._ui.presets import PRESETS
+from pages._ui.settings import TABLE, Settings
+
+OUTPUTS = {
+    "scores": "Scores below the maps",
+    "ladder": "One cell, reading by reading",
+}
+"""What is seen, not set: it vanishes only where it is itself hidden."""
+OTHERS = {
+    "drawing": "Drawing",
+    "lens_cell_px": "Cell size of the lens",
+    "presets": "Conditions, and examples of several maps",
+    "transport": "Transport of the replay",
+}
+"""Controls that set no setting, or several."""
+OF_LENS = (
+    *("range_px", "fov_deg", "lens_cell_px", "behind_hit", "clear_no_hit", "rule"),
+    "p_wall",
+)
+OF_ONE_MAP = (
+    *("p_wall", "p_space", "uninformative", "rule", "overlay", "transport"),
+    *OUTPUTS,
+)
+OF_SEVERAL = (
+    *("prior_drawing", "p_wall", "p_space", "rule", "thickness_px", "behind_hit"),
+    *("cell_px", "overlay", "transport", "presets", "columns"),
+    *OUTPUTS,
+)
+"""What the lens has, and the player with one map and with several."""
+NAMES: Mapping[str, str] = {
+    **OTHERS,
+    **{name: one.label for name, one in TABLE.items()},
+    **OUTPUTS,
+}
+"""Everything that can be hidden, and its words on the screen."""
+OF_EXERCISES = {
+    "errors": "overlay",
+    "scale": "drawing_scale",
+    "rotation_rad": "rotation_deg",
+    "seed": "flaw_seed",
+}
+"""Names in the files of exercises that are others here."""
+OF_FIELDS = {"flaw": ("thickness_px",), "calibrated": ("p_wall", "p_space")}
+"""The controls that a field of a map stands for, where they have another name."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Limits:
+    """What is hidden and locked, and the values that this holds.
+
+    Parameters
+    ----------
+    hidden, locked : frozenset of str
+        Names of `NAMES`; what is hidden need not be locked as well.
+    settings : Settings
+        The values of all that is held.
+    drawing : str
+        The drawing, if that is held; empty where it may be chosen.
+    by : str
+        Who set the limits, as the student reads it; empty if there are none.
+    """
+
+    hidden: frozenset[str] = frozenset()
+    locked: frozenset[str] = frozenset()
+    settings: Settings = Settings()
+    drawing: str = ""
+    by: str = ""
+
+    @property
+    def held(self) -> frozenset[str]:
+        """The controls that keep their value."""
+        return self.hidden | self.locked
+
+    def hides(self, name: str) -> bool:
+        """Whether a control is off the page; a preset goes with what it would tell."""
+        told = self.hidden & PRESETS_TELL if name == "presets" else ()
+        return name in self.hidden or bool(told)
+
+    def kept(self, settings: Settings) -> Settings:
+        """Return settings in which all that is held has its value."""
+        if not self.held:
+            return settings
+        names = self.held & (TABLE.keys() - {"columns"})
+        values = {name: getattr(self.settings, name) for name in names}
+        return replace(settings, **values, columns=self._columns(settings.columns))
+
+    def _columns(self, columns: tuple[Column, ...]) -> tuple[Column, ...]:
+        own = self.settings.columns
+        if "columns" in self.held and len(columns) != len(own):
+            return own
+        return tuple(
+            self._column(column, own[min(i, len(own) - 1)])
+            for i, column in enumerate(columns)
+        )
+
+    def _column(self, column: Column, own: Column) -> Column:
+        values = {
+            one.name: getattr(own, one.name)
+            for one in fields(Column)
+            if self.held.intersection(OF_FIELDS.get(one.name, (one.name,)))
+        }
+        return replace(column, **values)
+
+
+PRESETS_TELL = frozenset(name for preset in PRESETS.values() for name in preset)
+"""The settings that the choice of a preset would tell."""
+NONE = Limits()
+
+
+def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
+    """Return the limits of an exercise that opens with some settings."""
+    shown = _ours(exercise.show)
+    locked = _ours(exercise.lock)
+    others = _OF_THE_MAP - shown - locked if exercise.show else frozenset()
+    hidden = others | _ours(exercise.hide)
+    if not hidden | locked:
+        return NONE
+    is_held = "drawing" in hidden | locked
+    return Limits(
+        hidden=hidden,
+        locked=locked,
+        settings=settings,
+        drawing=exercise.setup.drawing if is_held else "",
+        by=f"exercise {exercise.number}",
+    )
+
+
+def _ours(names: Iterable[str]) -> frozenset[str]:
+    return frozenset(OF_EXERCISES.get(name, name) for name in names)
+
+
+_OF_THE_MAP = _ours(CONTROLS).union(("presets", "columns")) - OUTPUTS.keys()
+"""What an exercise hides where it lists what it shows."""

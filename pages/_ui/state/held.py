@@ -1,0 +1,90 @@
+"""What the open exercise or the class of a session holds, and the settings under it.
+
+The settings are stored here alone, so that a value that is held is put back whatever
+set it: a widget, a component, a link, or an undo.
+"""
+
+from collections.abc import Iterable
+
+import streamlit as st
+
+from occsim import sample_names
+from occsim.exercises import Exercise
+from pages._ui import compute
+from pages._ui import limits as rules
+from pages._ui.classroom.prepared import Prepared
+from pages._ui.limits import NONE, Limits
+from pages._ui.settings import Settings
+from pages._ui.state import opening
+
+TEACHER = "your teacher"
+
+
+def exercises() -> tuple[Exercise, ...]:
+    """The exercises that this session can open: those of its class come first."""
+    prepared = class_now()
+    own = compute.own_exercises(prepared.exercises) if prepared else ()
+    return *own, *compute.exercises()
+
+
+def active() -> Exercise | None:
+    """The exercise that is open; None if there is none."""
+    wanted = st.session_state.get("exercise")
+    if wanted is None:
+        return None
+    return next((one for one in exercises() if one.id == wanted), None)
+
+
+def class_now() -> Prepared | None:
+    """The class of this session; None if it is in none."""
+    return st.session_state.get("prepared")
+
+
+def limits() -> Limits:
+    """The limits of the exercise that is open, otherwise those of the class."""
+    exercise, prepared = active(), class_now()
+    if exercise is not None:
+        return rules.of_exercise(exercise, opening.of_exercise(exercise))
+    if prepared is None or not (prepared.hide or prepared.lock):
+        return NONE
+    hidden, locked = frozenset(prepared.hide), frozenset(prepared.lock)
+    drawing = class_drawing(prepared)
+    return Limits(
+        hidden=hidden,
+        locked=locked,
+        settings=opening.of_class(prepared, drawing),
+        drawing=drawing if "drawing" in hidden | locked else "",
+        by=TEACHER,
+    )
+
+
+def class_drawing(prepared: Prepared) -> str:
+    """The drawing of a class; the one that is shown where it names none."""
+    named = prepared.texts.get("drawing")
+    return named if named in sample_names() else st.session_state.choice
+
+
+def keep_settings(settings: Settings) -> None:
+    """Store the settings, with all that is held at its value."""
+    st.session_state.settings = limits().kept(settings)
+
+
+def limits_of(names: Iterable[str]) -> Limits:
+    """The limits for a component that has some controls; those hidden are noted."""
+    found = limits()
+    for name in found.hidden.intersection(names):
+        note_hidden(name)
+    return found
+
+
+def note_hidden(name: str) -> None:
+    """Note that a control of this page is not drawn."""
+    state = st.session_state
+    state.not_drawn = state.get("not_drawn", frozenset()) | {name}
+
+
+def not_drawn() -> frozenset[str]:
+    """The controls of this page that are hidden; forgotten once they are told."""
+    found = st.session_state.get("not_drawn", frozenset())
+    st.session_state.not_drawn = frozenset()
+    return found
