@@ -25,6 +25,7 @@ from occsim.io.trajectories import TrajectoryFormat, dump_trajectory, load_traje
 from occsim.logodds import logit, p_free_from_log_odds
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
 from occsim.metrics import (
+    HeldOut,
     Measure,
     Region,
     Reliability,
@@ -32,6 +33,7 @@ from occsim.metrics import (
     Scores,
     brier,
     coverage,
+    held_out_bits,
     log_loss,
     mean_entropy_bits,
     reliability,
@@ -77,6 +79,14 @@ from occsim.priors import (
     sweep_priors,
 )
 from occsim.reading import Reading, one_reading
+from occsim.registration import (
+    Agreement,
+    Registration,
+    agreement,
+    refine_registration,
+    register_by_points,
+    registered_walls,
+)
 from occsim.run import MappingRun, MapSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.samples.lens import lens_world
@@ -100,6 +110,7 @@ from occsim.world import World, truth_cells
 
 __all__ = [
     "RANGE_FINDERS",
+    "Agreement",
     "BehindHit",
     "Building",
     "Corrections",
@@ -112,6 +123,7 @@ __all__ = [
     "Generation",
     "Grid",
     "HeadingMode",
+    "HeldOut",
     "HitsVisits",
     "LossSurface",
     "MapSettings",
@@ -130,6 +142,7 @@ __all__ = [
     "RangeFinder",
     "Reading",
     "Region",
+    "Registration",
     "Reliability",
     "RobotFileError",
     "Sample",
@@ -146,6 +159,7 @@ __all__ = [
     "WallDetection",
     "WallParams",
     "World",
+    "agreement",
     "best_log_loss_pair",
     "brier",
     "build_prior",
@@ -164,6 +178,7 @@ __all__ = [
     "flawed_mask",
     "fuse",
     "good_region",
+    "held_out_bits",
     "hits_visits",
     "hypervolume",
     "interpolate",
@@ -188,6 +203,9 @@ __all__ = [
     "recommend",
     "rectangles_at",
     "reference_point",
+    "refine_registration",
+    "register_by_points",
+    "registered_walls",
     "reliability",
     "resample",
     "sample_names",

@@ -171,6 +171,7 @@ ASKED = {
     "sensor": Sensor(),
     "grid": WORLD.grid(2),
 }
+HERE = occsim.Registration()
 SCANS = occsim.simulate_scans(WORLD, ASKED["trajectory"], Sensor(), 3)
 CELLS = {"evidence": LOG, "is_wall": WALL, "truth": WALL}
 CHOICES = {"rule": UpdateRule.PRIOR_ONCE, "region": Region.ALL}
@@ -190,6 +191,30 @@ GOOD = {
     },
     "calibrated_prior": {"is_wall": WALL, "truth": WALL},
     "estimated_prior": {"others": [(WALL, WALL)]},
+    "agreement": {
+        "walls": WALL,
+        "evidence": LOG,
+        "registration": HERE,
+        "prior": Prior(),
+    },
+    "held_out_bits": {
+        "evidence": LOG,
+        "prior_map": PRIOR_MAP,
+        "rule": CHOICES["rule"],
+        "n_folds": 2,
+    },
+    "refine_registration": {
+        "walls": WALL,
+        "evidence": LOG,
+        "start": HERE,
+        "prior": Prior(),
+        "reach_px": 2.0,
+    },
+    "register_by_points": {
+        "drawing_points": [[0, 0], [1, 0]],
+        "log_points": [[0, 0], [1, 0]],
+    },
+    "registered_walls": {"walls": WALL, "registration": HERE, "grid": GRID},
     "build_prior": {
         "wall_mask": WALL,
         "grid": GRID,
@@ -310,7 +335,7 @@ GOOD = {
 WHOLE = {"world", "trajectory", "sensor", "grid", "prior", "prior_map", "evidence"}
 WHOLE |= {"occupancy_map", "sweep", "surface", "front", "sweeps", "fronts"}
 WHOLE |= {"is_wall", "truth", "wall_mask", "mask", "flaws", "building"}
-WHOLE |= {"blank", "scan_log"}
+WHOLE |= {"blank", "scan_log", "walls", "registration", "start"}
 STRANGE = {
     "nothing": None,
     "a number": 3,

@@ -29,6 +29,7 @@ ORDER = [
     {"tour"},
     {"mapping"},
     {"scan"},
+    {"registration"},
     {"metrics"},
     {"priors"},
     {"building"},

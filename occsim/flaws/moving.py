@@ -1,4 +1,4 @@
-"""A sheet that is scaled and turned about its centre, and shifted."""
+"""A sheet that is scaled and turned about its centre, and shifted, onto another."""
 
 import math
 
@@ -13,7 +13,11 @@ machine."""
 
 
 def moved_walls(
-    walls: BoolArray, scale: float, rotation_rad: float, shift_px: tuple[float, float]
+    walls: BoolArray,
+    scale: float,
+    rotation_rad: float,
+    shift_px: tuple[float, float],
+    shape: tuple[int, int] | None = None,
 ) -> BoolArray:
     """Return the walls scaled and turned about the sheet's centre, and shifted.
 
@@ -24,24 +28,26 @@ def moved_walls(
     scale, rotation_rad : float
         Factor, and angle from +x towards +y.
     shift_px : tuple of float
-        Along x and y.
+        Along x and y, of the centre from that of the new sheet.
+    shape : tuple of int, optional
+        Height and width of the new sheet, px; by default those of the old one.
 
     Returns
     -------
-    ndarray of bool, shape (H, W)
+    ndarray of bool, of that shape
         A pixel is wall if the centre of a wall pixel falls into it, or its own centre
         into a wall pixel.
     """
     a, b = scale * math.cos(rotation_rad), scale * math.sin(rotation_rad)
     shift = shift_px[::-1]
-    if (a, b, *shift) == (1.0, 0.0, 0.0, 0.0):
+    height, width = shape or walls.shape
+    if (a, b, *shift, height, width) == (1.0, 0.0, 0.0, 0.0, *walls.shape):
         return walls
     if not np.allclose((a, b), np.rint((a, b)), rtol=0.0, atol=EDGE_EPS_PX):
         walls = _bridged(walls)
     # How far a pixel whose centre lies in a wall pixel can be from the pixel into which
     # that one's own centre falls.
     margin = int(math.sqrt(0.5) * scale + 0.5 + EDGE_EPS_PX)
-    height, width = walls.shape
     sheet = slice(margin, margin + height), slice(margin, margin + width)
     moved = np.zeros((height + 2 * margin, width + 2 * margin), dtype=np.bool_)
     row, col = _points(walls)

@@ -11,10 +11,12 @@ from occsim.metrics.counts import (
     score,
 )
 from occsim.metrics.curves import ScoreCurves, scores_by_reading
+from occsim.metrics.held_out import HeldOut, held_out_bits
 from occsim.metrics.proper import Reliability, brier, log_loss, reliability
 from occsim.metrics.worth import Measure, worth_in_readings
 
 __all__ = [
+    "HeldOut",
     "Measure",
     "Region",
     "Reliability",
@@ -23,6 +25,7 @@ __all__ = [
     "brier",
     "coverage",
     "f_beta_of",
+    "held_out_bits",
     "log_loss",
     "mean_entropy_bits",
     "precision_of",
