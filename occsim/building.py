@@ -288,6 +288,14 @@ def building_from_drawing(
     ------
     TrajectoryError
         Where the walls leave no free space to drive in.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.building import building_from_drawing
+    >>> building = building_from_drawing(load_sample("d").drawing)
+    >>> len(building.trajectory) > 10
+    True
     """
     height, width = drawing.shape
     drawing = Transform.fit(drawing.shape, working_px).drawing(drawing)

@@ -25,23 +25,73 @@ _Choice = TypeVar("_Choice", bound=Enum)
 
 
 class OccsimError(ValueError):
-    """Base of every error that bad input to :mod:`occsim` raises."""
+    """Base of every error that bad input to :mod:`occsim` raises.
+
+    Examples
+    --------
+    >>> from occsim import OccsimError, load_sample
+    >>> try:
+    ...     load_sample("z")
+    ... except OccsimError as error:
+    ...     print(type(error).__name__)
+    ParameterError
+    """
 
 
 class ParameterError(OccsimError):
-    """A parameter, or the combination of several, lies outside its domain."""
+    """A parameter, or the combination of several, lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import ParameterError, Prior
+    >>> try:
+    ...     Prior(p_wall=1.4)
+    ... except ParameterError as error:
+    ...     print(error)
+    p_wall must lie in (0, 1]; got 1.4
+    """
 
 
 class DrawingError(OccsimError):
-    """An image cannot be used as a drawing."""
+    """An image cannot be used as a drawing.
+
+    Examples
+    --------
+    >>> from occsim import DrawingError, load_drawing
+    >>> try:
+    ...     load_drawing(b"no picture")
+    ... except DrawingError as error:
+    ...     print(str(error).split(" in ")[0])
+    drawing is plain text, not an image
+    """
 
 
 class TrajectoryError(OccsimError):
-    """Poses, or the file they come from, cannot be used as a trajectory."""
+    """Poses, or the file they come from, cannot be used as a trajectory.
+
+    Examples
+    --------
+    >>> from occsim import Trajectory, TrajectoryError
+    >>> try:
+    ...     Trajectory([[1.0, 2.0, float("nan")]])
+    ... except TrajectoryError as error:
+    ...     print(error)
+    every pose must be finite; pose 1 is [1.0, 2.0, nan]
+    """
 
 
 class RobotFileError(OccsimError):
-    """A file of a robot, a map or a log of scans, cannot be used."""
+    """A file of a robot, a map or a log of scans, cannot be used.
+
+    Examples
+    --------
+    >>> from occsim import Mapper, RobotFileError
+    >>> try:
+    ...     Mapper.load(b"no map")
+    ... except RobotFileError as error:
+    ...     print(str(error).split(",")[0])
+    it is not an undamaged file of a map saved by Mapper.save
+    """
 
 
 def choice(name: str, value: object, kind: type[_Choice]) -> _Choice:

@@ -191,6 +191,15 @@ def stream_evidence(
     ------
     TypeError, ParameterError
         As in `collect_evidence`, at once.
+
+    Examples
+    --------
+    >>> from occsim import load_sample, stream_evidence
+    >>> sample = load_sample("d")
+    >>> grid = sample.world.grid(5)
+    >>> parts = stream_evidence(sample.world, sample.trajectory, sample.sensor, grid)
+    >>> sum(part.n_readings for part in parts) == len(sample.trajectory)
+    True
     """
     expect("world", world, World)
     expect("trajectory", trajectory, Trajectory)

@@ -35,6 +35,16 @@ class EvidenceTotals(ShortRepr):
     TypeError, ParameterError
         Where the arrays are of another type or shape, sums are not finite, or counts
         are negative.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import EvidenceTotals, Grid, Prior, build_prior, fuse
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> totals = EvidenceTotals(grid, np.array([[2.0, 0.0]]), np.array([[1, 0]]))
+    >>> blank = build_prior(np.zeros((1, 2), bool), grid, Prior.uninformative())
+    >>> fuse(totals, blank).p_free.round(2)
+    array([[0.88, 0.5 ]])
     """
 
     grid: Grid

@@ -18,6 +18,12 @@ class UpdateRule(Enum):
     """How a reading enters the map.
 
     With a prior of one half both rules agree.
+
+    Examples
+    --------
+    >>> from occsim import UpdateRule
+    >>> [rule.value for rule in UpdateRule]
+    ['prior_once', 'subtract_prior']
     """
 
     PRIOR_ONCE = "prior_once"
@@ -43,6 +49,15 @@ class OccupancyMap(ShortRepr):
         Log-odds of free against occupied, nats.
     n_updates : ndarray of int64, shape (R, C)
         Readings that updated each cell; 0 where only the prior counts.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, OccupancyMap
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> seen = OccupancyMap(grid, np.array([[2.2, -2.2]]), np.array([[1, 1]]))
+    >>> seen.p_free.round(2)
+    array([[0.9, 0.1]])
     """
 
     grid: Grid

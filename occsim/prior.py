@@ -99,6 +99,15 @@ class PriorMap(ShortRepr):
     ------
     TypeError, ParameterError
         Where an array is of another type or shape, or a probability not in (0, 1).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, PriorMap
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> walls = np.array([[True, False]])
+    >>> PriorMap(grid, walls, np.array([[0.2, 0.8]])).log_odds.round(2)
+    array([[-1.39,  1.39]])
     """
 
     grid: Grid

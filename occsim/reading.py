@@ -33,6 +33,15 @@ class Reading(ShortRepr):
     log_odds : ndarray of float64, shape (R, C)
         What Eq. 4.22 says of each cell, nats of free against occupied; 0 where the
         cell has neither, and is not updated.
+
+    Examples
+    --------
+    >>> from occsim import Grid, Sensor, lens_world, one_reading
+    >>> world = lens_world()
+    >>> grid = world.grid(5)
+    >>> reading = one_reading(world, (20.5, 20.5, 0.0), Sensor(), grid)
+    >>> int(reading.n_empty.sum()) == int(reading.empty.sum())
+    True
     """
 
     grid: Grid

@@ -35,7 +35,14 @@ SURFACE_DEPTH_PX = 1.5
 
 
 class BehindHit(Enum):
-    """What the sensor says of pixels in view behind the wall that it meets."""
+    """What the sensor says of pixels in view behind the wall that it meets.
+
+    Examples
+    --------
+    >>> from occsim import BehindHit, Sensor
+    >>> Sensor(behind_hit="unseen").behind_hit is BehindHit.UNSEEN
+    True
+    """
 
     OCCUPIED = "occupied"
     """At the hit or beyond: object, as Eq. 4.22 is printed."""

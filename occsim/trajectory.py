@@ -19,7 +19,15 @@ _SAME_PLACE_PX = 1e-6
 
 
 class HeadingMode(Enum):
-    """Where the robot looks along a path."""
+    """Where the robot looks along a path.
+
+    Examples
+    --------
+    >>> from occsim import HeadingMode, resample
+    >>> path = [(0.0, 0.0), (10.0, 5.0)]
+    >>> resample(path, 20.0, heading_mode=HeadingMode.CARDINAL).poses[:, 2]
+    array([0., 0.])
+    """
 
     ALONG = "along"
     """Along the path."""
@@ -43,6 +51,13 @@ class Trajectory:
     ------
     TrajectoryError
         Where the shape is another, or a value is not finite.
+
+    Examples
+    --------
+    >>> from occsim import Trajectory
+    >>> trajectory = Trajectory([(10.5, 4.0, 0.0), (12.5, 4.0, 0.0)])
+    >>> len(trajectory), trajectory.poses.shape
+    (2, (2, 3))
     """
 
     poses: FloatArray
@@ -179,6 +194,14 @@ def resample(
     ParameterError
         Where the step is not above 0, the mode is no `HeadingMode`, or
         `turn_at_waypoints` has another shape.
+
+    Examples
+    --------
+    >>> from occsim import resample
+    >>> resample([(0.0, 0.0), (10.0, 0.0)], 5.0).poses
+    array([[ 0.,  0.,  0.],
+           [ 5.,  0.,  0.],
+           [10.,  0.,  0.]])
     """
     points, is_new = _waypoints(waypoints_px)
     turning = _turning(turn_at_waypoints, is_new)

@@ -23,6 +23,16 @@ class Drawing:
         What to call it on screen.
     digest : str
         Identifies the pixels: equal digests mean equal images.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Drawing
+    >>> sheet = np.full((20, 30, 3), 255, dtype=np.uint8)
+    >>> sheet[5:8] = 0
+    >>> drawing = Drawing(sheet, name="one wall")
+    >>> drawing.shape, int(drawing.gray[6, 0])
+    ((20, 30), 0)
     """
 
     rgb: ByteArray

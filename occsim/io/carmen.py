@@ -27,7 +27,16 @@ LMS200, which reads 81.83 m and more where nothing returns; gmapping, too, takes
 
 
 class PoseSource(Enum):
-    """Which of a scan's two poses is taken."""
+    """Which of a scan's two poses is taken.
+
+    Examples
+    --------
+    >>> from occsim.io import carmen
+    >>> line = b"FLASER 3 1.0 2.0 81.83 4 5 0 1 1 0 7.5 host 7.5"
+    >>> by_odometry = carmen.load(line, poses=carmen.PoseSource.ODOMETRY)
+    >>> by_odometry.frame.origin_x_m < carmen.load(line).frame.origin_x_m
+    True
+    """
 
     LASER = "laser"
     """The range finder's own, corrected where the log is."""
@@ -47,6 +56,13 @@ class CarmenLog(MetricScans):
         When each scan was taken, NaN where the log does not say.
     odometry_m : ndarray of float64, shape (K, 3)
         x, y, m, and heading, rad, of the ODOM lines.
+
+    Examples
+    --------
+    >>> from occsim.io import carmen
+    >>> log = carmen.load(b"FLASER 3 1.0 2.0 81.83 4 5 0 4 5 0 7.5 host 7.5")
+    >>> log.scan_log.n_scans, log.times_s
+    (1, array([7.5]))
     """
 
     times_s: FloatArray

@@ -35,6 +35,13 @@ class MetricFrame:
     ------
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim.io.metric import MetricFrame, poses_to_image
+    >>> frame = MetricFrame(height_px=100, metres_per_px=0.05)
+    >>> poses_to_image([[1.0, 0.0, 0.0]], frame).poses
+    array([[ 20., 100.,   0.]])
     """
 
     height_px: int
@@ -75,6 +82,14 @@ def poses_to_image(poses_m: npt.ArrayLike, frame: MetricFrame) -> Trajectory:
     ------
     TrajectoryError
         Where the poses are not finite rows of three.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim.io.metric import MetricFrame, poses_to_image
+    >>> frame = MetricFrame(height_px=100, metres_per_px=0.05)
+    >>> poses_to_image([[1.0, 1.0, np.pi / 2]], frame).poses.round(3)
+    array([[20.   , 80.   , -1.571]])
     """
     metric = Trajectory(poses=np.asarray(poses_m))
     x_m, y_m, yaw = metric.poses.T
@@ -101,6 +116,14 @@ def poses_to_metric(trajectory: Trajectory, frame: MetricFrame) -> FloatArray:
     -------
     ndarray of float64, shape (S, 3)
         x, y, m, and heading, rad, from +x towards +y, in [-pi, pi).
+
+    Examples
+    --------
+    >>> from occsim import Trajectory
+    >>> from occsim.io.metric import MetricFrame, poses_to_metric
+    >>> frame = MetricFrame(height_px=100, metres_per_px=0.05)
+    >>> poses_to_metric(Trajectory([(20.0, 80.0, 0.5)]), frame)
+    array([[ 1. ,  1. , -0.5]])
     """
     x_px, y_px, theta = trajectory.poses.T
     right = x_px * frame.metres_per_px

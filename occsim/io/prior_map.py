@@ -31,6 +31,16 @@ def prior_png(prior_map: PriorMap) -> bytes:
     -------
     bytes
         8-bit PNG, H x W pixels, grey ``round(255 * p_free)``: white is free.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, Prior, build_prior
+    >>> from occsim.io.prior_map import prior_png
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> prior_map = build_prior(np.array([[True, False]]), grid, Prior())
+    >>> prior_png(prior_map)[1:4]
+    b'PNG'
     """
     return png(belief_picture(prior_map.p_free, prior_map.grid))
 
@@ -47,6 +57,16 @@ def prior_npy(prior_map: PriorMap) -> bytes:
     -------
     bytes
         NPY file of float64, shape (R, C), exact; it holds no pickled objects.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, Prior, build_prior
+    >>> from occsim.io.prior_map import prior_npy
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> prior_map = build_prior(np.array([[True, False]]), grid, Prior())
+    >>> len(prior_npy(prior_map))
+    144
     """
     file = io.BytesIO()
     np.save(file, prior_map.p_free, allow_pickle=False)
@@ -66,6 +86,16 @@ def prior_csv(prior_map: PriorMap) -> str:
     str
         CSV: two comment lines, then one line for each row of cells, from the top down,
         numbers to 12 significant digits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, Prior, build_prior
+    >>> from occsim.io.prior_map import prior_csv
+    >>> grid = Grid(height_px=1, width_px=2, cell_px=1)
+    >>> prior_map = build_prior(np.array([[True, False]]), grid, Prior())
+    >>> prior_csv(prior_map).splitlines()[0]
+    '# p_free, the prior probability that a cell is free'
     """
     file = io.StringIO()
     grid = prior_map.grid
@@ -104,6 +134,16 @@ def prior_json(
     -------
     str
         JSON, with the versions of this library and of NumPy.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, Prior, load_sample
+    >>> from occsim.io.prior_map import prior_json
+    >>> sample, prior = load_sample("d"), Prior(p_wall=0.2, p_space=0.9)
+    >>> run = MappingRun(sample, MapSettings(cell_px=10))
+    >>> document = prior_json(run.prior_map(prior), prior, sample.drawing)
+    >>> '"p_wall": 0.2' in document
+    True
     """
     grid = prior_map.grid
     chosen = {name: _plain(value) for name, value in (chosen_on or {}).items()}

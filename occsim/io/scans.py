@@ -53,6 +53,15 @@ class MetricScans(ShortRepr):
         Width of the map; its height is that of the frame.
     usable_range_m : float
         Range beyond which nothing is mapped, m.
+
+    Examples
+    --------
+    >>> from occsim import evidence_from_scans
+    >>> from occsim.io.scans import metric_scans
+    >>> found = metric_scans([[4, 5, 0]], [-0.5, 0.0, 0.5], [[1, 2, 1]], 30)
+    >>> log = evidence_from_scans(found.scan_log, found.sensor(), found.grid())
+    >>> log.n_readings
+    1
     """
 
     scan_log: ScanLog
@@ -169,6 +178,14 @@ def dump(scan_log: ScanLog, frame: MetricFrame) -> bytes:
     ------
     TypeError
         Where an argument is of another type.
+
+    Examples
+    --------
+    >>> from occsim.io.scans import dump, load, metric_scans
+    >>> found = metric_scans([[4, 5, 0]], [-0.5, 0.0, 0.5], [[1, 2, 1]], 30)
+    >>> again = load(dump(found.scan_log, found.frame))
+    >>> again.scan_log.ranges_px.round(6)
+    array([[20., 40., 20.]])
     """
     expect("scan_log", scan_log, ScanLog)
     expect("frame", frame, MetricFrame)
@@ -208,6 +225,14 @@ def load(
         Where the file is missing, damaged or too large, or its arrays are no scans.
     ParameterError
         Where a parameter lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim.io.scans import dump, load, metric_scans
+    >>> found = metric_scans([[4, 5, 0]], [-0.5, 0.0, 0.5], [[1, 2, 1]], 30)
+    >>> coarse = load(dump(found.scan_log, found.frame), metres_per_px=0.1)
+    >>> coarse.scan_log.ranges_px.round(6)
+    array([[10., 20., 10.]])
     """
     checked_length("metres_per_px", metres_per_px)
     if usable_range_m is not None:

@@ -18,7 +18,14 @@ from occsim.mapping import OccupancyMap
 
 
 class Region(Enum):
-    """Which cells are scored."""
+    """Which cells are scored.
+
+    Examples
+    --------
+    >>> from occsim import Region
+    >>> [region.value for region in Region]
+    ['explored', 'all', 'unexplored']
+    """
 
     EXPLORED = "explored"
     """Cells that at least one reading updated."""
@@ -84,6 +91,13 @@ class Scores:
     ----------
     tp, fp, fn, tn : int
         Walls found, false walls, walls missed, and space left free.
+
+    Examples
+    --------
+    >>> from occsim import Scores
+    >>> scores = Scores(tp=8, fp=2, fn=0, tn=90)
+    >>> scores.precision, scores.recall, round(scores.f2, 3)
+    (0.8, 1.0, 0.952)
     """
 
     tp: int
@@ -192,7 +206,17 @@ def scored_cells(
 
 
 def coverage(occupancy_map: OccupancyMap) -> float:
-    """Return the share of cells that at least one reading updated."""
+    """Return the share of cells that at least one reading updated.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Prior, coverage
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> 0.0 < coverage(run.map(Prior())) <= 1.0
+    True
+    """
     expect("occupancy_map", occupancy_map, OccupancyMap)
     return float(np.mean(occupancy_map.n_updates > 0))
 
@@ -209,6 +233,16 @@ def mean_entropy_bits(occupancy_map: OccupancyMap) -> float:
     -------
     float
         1 where every cell is at one half, towards 0 as cells become certain.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Prior, mean_entropy_bits
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> before, after = run.map(Prior(), n_readings=0), run.map(Prior())
+    >>> mean_entropy_bits(before) > mean_entropy_bits(after)
+    True
     """
     expect("occupancy_map", occupancy_map, OccupancyMap)
     # In log-odds l the entropy is ln(1 + e^-|l|) + |l| / (1 + e^|l|) nats, which

@@ -42,6 +42,17 @@ class ScoreCurves(ShortRepr):
     bits : ndarray of float64, shape (S + 1,), optional
         Log loss, bits per cell, NaN where no cell counts; None where it was not asked
         for.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Prior, scores_by_reading
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> prior_map = run.prior_map(Prior())
+    >>> curves = scores_by_reading(run.evidence, prior_map, run.truth_cells)
+    >>> len(curves.recall) == run.evidence.n_readings + 1
+    True
     """
 
     tp: IntArray

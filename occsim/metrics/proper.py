@@ -123,6 +123,16 @@ class Reliability(ShortRepr):
         Share of them that is free in truth; NaN in an empty one.
     count : ndarray of int64, shape (n_bins,)
         Number of cells.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Prior, reliability
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> bins = reliability(run.map(Prior()), run.truth_cells)
+    >>> int(bins.count.sum()) == run.grid.n_cells
+    True
     """
 
     edges: FloatArray

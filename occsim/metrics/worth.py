@@ -13,7 +13,14 @@ SAME_SCORE = 1e-12
 
 
 class Measure(Enum):
-    """By which score maps are compared."""
+    """By which score maps are compared.
+
+    Examples
+    --------
+    >>> from occsim import Measure
+    >>> Measure("bits") is Measure.BITS
+    True
+    """
 
     F2 = "f2"
     """F2: more is better."""

@@ -6,9 +6,7 @@ from occsim.priors.front import (
     ParetoFront,
     dominates,
     front_of,
-    good_region,
     hypervolume,
-    near_front,
     non_dominated,
     recommend,
     reference_point,
@@ -19,6 +17,7 @@ from occsim.priors.loss import (
     best_log_loss_pair,
     loss_surface,
 )
+from occsim.priors.near import good_region, near_front
 from occsim.priors.nsga2 import (
     PARETO_FRACTION,
     Elitism,

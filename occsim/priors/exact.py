@@ -138,6 +138,17 @@ def surface_front(
         Where the surface is no `PriorSurface`.
     ParameterError
         Where a bound lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import surface_front
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> surface = run.surface()
+    >>> front = run.front()
+    >>> bool((surface_front(surface).recall == front.recall).all())
+    True
     """
     expect("surface", surface, PriorSurface)
     wall = _states(surface.wall_tp, surface.wall_fp, low, high, surface.scale)
@@ -191,6 +202,16 @@ def rectangles_at(
         Where the surface is no `PriorSurface`.
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import rectangles_at
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> surface = run.surface()
+    >>> rectangles_at(surface, 0.2, 0.9).shape[1]
+    4
     """
     expect("surface", surface, PriorSurface)
     p_wall, p_space = real_number("p_wall", p_wall), real_number("p_space", p_space)

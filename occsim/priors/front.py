@@ -15,16 +15,12 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, ShortRepr
 from occsim.errors import ParameterError, expect, real_array, real_number, shared_shape
-from occsim.priors.sweep import PriorSweep
 
 MIN_RECALL = 0.40
 """Threshold of set C; the source found by experiment that it keeps the structure."""
 
 DECIMALS = 4
 """Decimals of a recommended prior value, if its interval is wide enough."""
-
-ROUNDING = 1e-12
-"""Slack of comparisons with a tolerance, far below one cell's share of any score."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,6 +38,15 @@ class ParetoFront(ShortRepr):
         Bounds p_wall_low, p_wall_high, p_space_low, p_space_high of a whole rectangle
         of pairs, the given one among them, that attain each point; None where only
         the pairs themselves are known.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> front = run.front()
+    >>> bool((front.recall[1:] > front.recall[:-1]).all())
+    True
     """
 
     p_wall: FloatArray
@@ -272,6 +277,16 @@ def reference_point(front: ParetoFront, margin: float = 0.1) -> tuple[float, flo
     ------
     TypeError
         Where the front is no `ParetoFront`.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import reference_point
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> front = run.front()
+    >>> bool(reference_point(front)[1] > 1.0 / front.recall.min())
+    True
     """
     expect("front", front, ParetoFront)
     margin = real_number("margin", margin)
@@ -304,6 +319,16 @@ def set_c(front: ParetoFront, min_recall: float = MIN_RECALL) -> ParetoFront:
         Where the front is no `ParetoFront`.
     ParameterError
         Where the threshold lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import set_c
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> front = run.front()
+    >>> bool((set_c(front, 0.9).recall > 0.9).all())
+    True
     """
     beyond = _beyond(front, min_recall)
     return front.take(beyond)
@@ -330,6 +355,17 @@ def recommend(front: ParetoFront, min_recall: float = MIN_RECALL) -> int | None:
         Where the front is no `ParetoFront`.
     ParameterError
         Where the threshold lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import recommend
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> front = run.front()
+    >>> best = recommend(front)
+    >>> bool(front.recall[best] > 0.4)
+    True
     """
     beyond = _beyond(front, min_recall)
     if not beyond.any():
@@ -343,91 +379,3 @@ def _beyond(front: ParetoFront, min_recall: float) -> BoolArray:
     if not 0.0 <= min_recall <= 1.0:
         raise ParameterError(f"min_recall must lie in [0, 1]; got {min_recall!r}")
     return np.asarray(front.recall > min_recall)
-
-
-def near_front(sweep: PriorSweep, front: ParetoFront, tolerance: float) -> BoolArray:
-    """Return which pairs of a sweep score within a tolerance of a front.
-
-    A pair is near where some point of the front beats it by at most the tolerance in
-    precision and by at most the tolerance in recall.
-
-    Parameters
-    ----------
-    sweep : PriorSweep
-        Scores of (A, B) pairs.
-    front : ParetoFront
-        Front of the same drawing and cells.
-    tolerance : float
-        In [0, 1], of precision and of recall alike.
-
-    Returns
-    -------
-    ndarray of bool, shape (A, B)
-        False where precision or recall is undefined, or the front is empty.
-
-    Raises
-    ------
-    TypeError
-        Where sweep or front is of another type.
-    ParameterError
-        Where the tolerance lies outside its domain.
-    """
-    expect("sweep", sweep, PriorSweep)
-    expect("front", front, ParetoFront)
-    tolerance = real_number("tolerance", tolerance)
-    if not 0.0 <= tolerance <= 1.0:
-        raise ParameterError(f"tolerance must lie in [0, 1]; got {tolerance!r}")
-    slack = tolerance + ROUNDING
-    # Along the front precision falls as recall rises: of the points that are not too
-    # far above in recall, the last is the easiest to match in precision.
-    last = np.searchsorted(front.recall, sweep.recall + slack, side="right")
-    lowest = np.concatenate(([np.inf], front.precision))[last]
-    return np.asarray(lowest - sweep.precision <= slack) & ~np.isnan(sweep.recall)
-
-
-def good_region(
-    sweeps: Sequence[PriorSweep], fronts: Sequence[ParetoFront], tolerance: float
-) -> BoolArray:
-    """Return which prior pairs are near the front of every drawing.
-
-    Parameters
-    ----------
-    sweeps : sequence of PriorSweep
-        One a drawing, over the same axes.
-    fronts : sequence of ParetoFront
-        The front of each of them.
-    tolerance : float
-        In [0, 1]; see `near_front`.
-
-    Returns
-    -------
-    ndarray of bool, shape (A, B)
-
-    Raises
-    ------
-    TypeError
-        Where the arguments are not sequences of sweeps and fronts.
-    ParameterError
-        Where there is no drawing, the axes or the numbers of drawings differ, or the
-        tolerance lies outside its domain.
-    """
-    _expect_each("sweeps", sweeps, PriorSweep)
-    _expect_each("fronts", fronts, ParetoFront)
-    if not sweeps or len(sweeps) != len(fronts):
-        raise ParameterError(
-            "good_region needs one front a sweep and at least one of each; got "
-            f"{len(sweeps)} sweeps and {len(fronts)} fronts"
-        )
-    first = sweeps[0]
-    for sweep in sweeps[1:]:
-        same_wall = np.array_equal(sweep.p_wall, first.p_wall)
-        if not (same_wall and np.array_equal(sweep.p_space, first.p_space)):
-            raise ParameterError("the sweeps must have the same axes")
-    near = [near_front(s, f, tolerance) for s, f in zip(sweeps, fronts, strict=True)]
-    return np.asarray(np.logical_and.reduce(near), dtype=np.bool_)
-
-
-def _expect_each(name: str, values: object, kind: type) -> None:
-    expect(name, values, Sequence)
-    for value in values:  # type: ignore[attr-defined]
-        expect(f"each of {name}", value, kind)

@@ -90,6 +90,15 @@ class LossSurface(ShortRepr):
         The two terms of the sum.
     n_cells : int
         Scored cells.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> surface = run.loss_surface()
+    >>> bool(surface.bits(0.2, 0.8) < surface.bits(0.5, 0.5))
+    True
     """
 
     wall: ClassLoss

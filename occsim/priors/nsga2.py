@@ -38,7 +38,14 @@ distances between individuals are computed, and worse than one cell in a million
 
 
 class Elitism(Enum):
-    """Which individuals survive a generation."""
+    """Which individuals survive a generation.
+
+    Examples
+    --------
+    >>> from occsim import Elitism
+    >>> Elitism("controlled")
+    <Elitism.CONTROLLED: 'controlled'>
+    """
 
     FULL = "full"
     """The best fronts, as many as fit: NSGA-II."""
@@ -61,6 +68,15 @@ class Generation:
         Columns precision and recall; NaN where undefined.
     hypervolume : float
         Of the population against the reference point; NaN where none was given.
+
+    Examples
+    --------
+    >>> from occsim import nsga2_generations
+    >>> def objective(pairs):
+    ...     return pairs[:, 0], 1.0 - 0.5 * pairs[:, 1]
+    >>> first = next(nsga2_generations(objective, pop_size=20, seed=1))
+    >>> first.number, first.population.shape
+    (1, (20, 2))
     """
 
     number: int
@@ -125,6 +141,17 @@ def nsga2_generations(
     ParameterError
         Immediately where a value lies outside its domain; during the run where the
         objective does not return precision and recall.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import exact_objective, nsga2_generations
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> objective = exact_objective(run.evidence, run.wall_cells, run.truth_cells)
+    >>> populations = nsga2_generations(objective, pop_size=20, n_gen=3, seed=1)
+    >>> [one.number for one in populations]
+    [1, 2, 3]
     """
     pop_size = whole_number("pop_size", pop_size, 4, 10_000)
     n_gen = whole_number("n_gen", n_gen, 1, 10_000)
@@ -178,6 +205,17 @@ def nsga2_front(
     ParameterError
         Where a value lies outside its domain, or the objective does not return
         precision and recall.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import exact_objective, nsga2_front
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> objective = exact_objective(run.evidence, run.wall_cells, run.truth_cells)
+    >>> front = nsga2_front(objective, pop_size=20, n_gen=5, seed=1)
+    >>> bool((front.precision > 0.0).all())
+    True
     """
     generations = nsga2_generations(
         objective,

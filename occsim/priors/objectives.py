@@ -42,6 +42,17 @@ def interpolated_objective(sweep: PriorSweep) -> ObjectiveFunction:
     ------
     TypeError
         Where the sweep is no `PriorSweep`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import interpolated_objective
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> objective = interpolated_objective(run.sweep())
+    >>> objective(np.array([[0.25, 0.85]])).shape
+    (1, 2)
     """
     expect("sweep", sweep, PriorSweep)
 
@@ -77,6 +88,17 @@ def exact_objective(
     ------
     TypeError, ParameterError
         As in `prior_surface`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import exact_objective
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> objective = exact_objective(run.evidence, run.wall_cells, run.truth_cells)
+    >>> objective(np.array([[0.2, 0.9], [1.0, 1.0]])).shape
+    (2, 2)
     """
     surface = prior_surface(evidence, is_wall, truth, rule, region, scale)
     return surface_objective(surface)

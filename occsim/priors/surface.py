@@ -65,6 +65,16 @@ class PriorSurface(ShortRepr):
         Scored cells that are wall, and space, in truth.
     scale : float
         Factor on p_wall and p_space.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> surface = run.surface()
+    >>> tp, fp = surface.counts([0.1, 0.2], [0.9])
+    >>> tp.shape
+    (2,)
     """
 
     wall_tp: StepCount

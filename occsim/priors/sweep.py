@@ -27,7 +27,19 @@ SOURCE_AXIS = tuple(round(0.1 * i, 1) for i in range(1, 11))
 
 
 class Objective(Enum):
-    """Scores by which a prior pair is judged."""
+    """Scores by which a prior pair is judged.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Objective, maxima
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> sweep = run.sweep()
+    >>> best = maxima(sweep, Objective.RECALL)
+    >>> bool(best.value == sweep.recall.max())
+    True
+    """
 
     PRECISION = "precision"
     RECALL = "recall"
@@ -45,6 +57,14 @@ class PriorSweep(ShortRepr):
         Values for space cells.
     tp, fp, fn, tn : ndarray of int64, shape (A, B)
         Counts of cells, as in `Scores`.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> run.sweep().precision.shape
+    (10, 10)
     """
 
     p_wall: FloatArray
@@ -210,6 +230,16 @@ def interpolate(
     ParameterError
         Where the axes do not ascend, a point lies outside them, or shapes do not
         broadcast.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import interpolate
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> sweep = run.sweep()
+    >>> bool(interpolate(sweep, 0.2, 0.9) == sweep.precision[1, 8])
+    True
     """
     expect("sweep", sweep, PriorSweep)
     row, row_share = _bracket("p_wall", sweep.p_wall, p_wall)
@@ -266,6 +296,17 @@ def maxima(sweep: PriorSweep, objective: Objective) -> Maxima:
         Where the sweep is no `PriorSweep`.
     ParameterError
         Where the objective is no `Objective`.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, load_sample
+    >>> from occsim import Objective, maxima
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> sweep = run.sweep()
+    >>> best = maxima(sweep, Objective.PRECISION)
+    >>> 0.9 < best.value <= 1.0
+    True
     """
     expect("sweep", sweep, PriorSweep)
     table = sweep.values(objective)

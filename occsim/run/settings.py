@@ -25,6 +25,12 @@ class MapSettings:
     ------
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim import MapSettings, Sensor
+    >>> MapSettings(cell_px=5, sensor=Sensor(range_px=40.0)).sensor.range_px
+    40.0
     """
 
     cell_px: int = 3

@@ -108,6 +108,12 @@ def sample_names() -> tuple[str, ...]:
     -------
     tuple of str
         ``"a"`` to ``"e"``.
+
+    Examples
+    --------
+    >>> from occsim import sample_names
+    >>> sample_names()
+    ('a', 'b', 'c', 'd', 'e')
     """
     return tuple(_index())
 
@@ -130,6 +136,13 @@ def load_sample(name: str) -> Building:
     ------
     ParameterError
         Where there is no sample of that name.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> sample = load_sample("d")
+    >>> sample.drawing.shape == sample.world.shape
+    True
     """
     if name not in _index():
         raise ParameterError(

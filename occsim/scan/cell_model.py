@@ -36,6 +36,15 @@ class HitsVisits(ShortRepr):
         Beams that end in each cell.
     visits : ndarray of int64, shape (R, C)
         Beams that end in it or pass it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, HitsVisits
+    >>> counts = HitsVisits(Grid(height_px=1, width_px=2, cell_px=1),
+    ...     np.array([[1, 2]]), np.array([[8, 4]]))
+    >>> counts.declared().p_free
+    array([[0.9, 0.1]])
     """
 
     grid: Grid

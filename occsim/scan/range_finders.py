@@ -114,8 +114,9 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_from_m=0.4,
             source="Microsoft, Kinect for Windows SDK 1.8, 'Sensor Components and "
             "Specifications' (57 degrees) and 'DepthRange Enumeration' (default range, "
-            "0.8 to 4 m); 640 columns; sigma: Nguyen, Izadi and Lovell, 'Modeling Kinect "
-            "Sensor Noise for Improved 3D Reconstruction and Tracking', 3DIMPVT 2012",
+            "0.8 to 4 m); 640 columns; sigma: Nguyen, Izadi and Lovell, 'Modeling "
+            "Kinect Sensor Noise for Improved 3D Reconstruction and Tracking', "
+            "3DIMPVT 2012",
         ),
         "urg-04lx": RangeFinder(
             title="Hokuyo URG-04LX",
@@ -171,8 +172,8 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             sigma_2_per_m=0.00083,
             sigma_from_m=0.0,
             source="Slamtec, 'RPLIDAR A1 Introduction and Datasheet, Model A1M8', rev. "
-            "1.0, 2016: 0.15 to 12 m, 360 samples a scan at 5.5 Hz; it has no accuracy; "
-            "the resolution, 0.5 mm below 1.5 m and 1 % of any distance, is taken as "
+            "1.0, 2016: 0.15 to 12 m, 360 samples a scan at 5.5 Hz; no accuracy; the "
+            "resolution, 0.5 mm below 1.5 m and 1 % of any distance, is taken as "
             "sigma, 0.5 mm near and 1 % at 12 m",
             not_stated=_SIGMA,
         ),

@@ -65,6 +65,12 @@ class Machines:
     ------
     ParameterError
         Where the number lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim.study import Machines
+    >>> Machines(processes=2).processes
+    2
     """
 
     processes: int = 1

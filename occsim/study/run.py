@@ -48,6 +48,12 @@ class StudySettings:
     ------
     ParameterError
         Where a value lies outside its domain.
+
+    Examples
+    --------
+    >>> from occsim.study import StudySettings
+    >>> StudySettings(rule="prior_once").rule
+    <UpdateRule.PRIOR_ONCE: 'prior_once'>
     """
 
     rule: UpdateRule = UpdateRule.SUBTRACT_PRIOR
@@ -88,6 +94,13 @@ class StudyCase:
         Of the map without a drawing: a prior of one half.
     is_reference : bool
         Whether the drawing is a sample, for which there are published figures.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.study import run_case
+    >>> run_case(load_sample("d"), 10).sweep.precision.shape
+    (10, 10)
     """
 
     name: str
@@ -199,6 +212,14 @@ def run_case(
         Where the cell size lies outside its domain.
     TrajectoryError
         Where no pose stands in free space.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.study import StudySettings, run_case
+    >>> case = run_case(load_sample("d"), 10, StudySettings(rule="prior_once"))
+    >>> case.name, case.cell_px
+    ('d', 10)
     """
     settings = settings or StudySettings()
     sensor = replace(drawing.sensor, behind_hit=settings.behind_hit)

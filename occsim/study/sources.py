@@ -55,6 +55,12 @@ class DrawingSource:
         Picture of the structure alone. Without one the walls found are the world.
     trajectory : Path, optional
         Poses, px. Without one a tour is planned.
+
+    Examples
+    --------
+    >>> from occsim.study import DrawingSource, find_drawings
+    >>> isinstance(find_drawings(["a"])[0], DrawingSource)
+    True
     """
 
     name: str

@@ -76,6 +76,14 @@ def detect_walls(
     WallDetection
         The mask, shape (H, W), a picture for each stage, what is doubtful, and how
         sure all of it is.
+
+    Examples
+    --------
+    >>> from occsim import detect_walls, load_sample
+    >>> sample = load_sample("d")
+    >>> walls = detect_walls(sample.drawing).mask
+    >>> round(float((walls & sample.world.occupied).sum() / walls.sum()), 1)
+    1.0
     """
     sheet = _sheet(drawing, params)
     ink = _ink(find_ink(sheet.dark, params.ink_level), sheet.scale, params)

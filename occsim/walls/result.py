@@ -75,6 +75,13 @@ class WallDetection:
         it; none by default.
     certainty : Certainty, optional
         How sure the detection is.
+
+    Examples
+    --------
+    >>> from occsim import detect_walls, load_sample
+    >>> found = detect_walls(load_sample("d").drawing)
+    >>> found.mask.shape, found.stages[0].title
+    ((240, 300), 'Darkness')
     """
 
     mask: BoolArray

@@ -24,7 +24,17 @@ LIMITS: Mapping[str, int] = {
 
 
 class ProjectError(OccsimError):
-    """A file cannot be opened as a project."""
+    """A file cannot be opened as a project.
+
+    Examples
+    --------
+    >>> from occsim.io.project import ProjectError, load_project
+    >>> try:
+    ...     load_project(b"no archive")
+    ... except ProjectError as error:
+    ...     print(type(error).__name__)
+    ProjectError
+    """
 
 
 def unpacked_project(data: bytes) -> dict[str, bytes]:

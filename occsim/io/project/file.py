@@ -62,6 +62,13 @@ class Project:
         Drawing, walls, ground truth, trajectory, scale.
     settings : mapping of str to str
         Settings of the application, as text.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.io.project import Project
+    >>> Project(building=load_sample("d"), settings={"note": "a"}).settings["note"]
+    'a'
     """
 
     building: Building
@@ -80,6 +87,13 @@ def dump_project(project: Project) -> bytes:
     -------
     bytes
         A zip archive; the same project gives the same bytes.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.io.project import Project, dump_project
+    >>> dump_project(Project(building=load_sample("d")))[:2]
+    b'PK'
     """
     building = project.building
     document = _description(building, project.settings)
@@ -150,6 +164,15 @@ def load_project(source: bytes | str | Path, *, name: str | None = None) -> Proj
     ProjectError
         Where the file is not such an archive, is damaged, too large or of another
         version, or where a part or a value in it is out of bounds.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.io.project import Project, dump_project, load_project
+    >>> sample = load_sample("d")
+    >>> again = load_project(dump_project(Project(building=sample))).building
+    >>> bool((again.wall_mask == sample.wall_mask).all())
+    True
     """
     data, file_name = read_source(
         source,

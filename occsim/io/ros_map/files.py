@@ -143,6 +143,14 @@ def dump(
     -----
     Thresholds are written such that both this library and nav2 read the map back. nav2
     itself writes ``free_thresh: 0.25`` by default, with which unknown becomes free.
+
+    Examples
+    --------
+    >>> from occsim.io.ros_map import RosMap, dump, load
+    >>> room = RosMap([[100, 0], [0, -1]], 0.05)
+    >>> yaml, image = dump(room, "room")
+    >>> load(yaml, image).values.tolist()
+    [[100, 0], [0, -1]]
     """
     expect("ros_map", ros_map, RosMap)
     mode = choice("mode", mode, MapMode)
@@ -187,6 +195,16 @@ def save(
     ------
     TypeError, ParameterError
         As in `dump`.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from occsim.io.ros_map import RosMap, load, save
+    >>> with TemporaryDirectory() as folder:
+    ...     save(RosMap([[100, 0]], 0.05), Path(folder) / "room.yaml")
+    ...     load(Path(folder) / "room.yaml").values.tolist()
+    [[100, 0]]
     """
     path = Path(path).with_suffix(".yaml")
     yaml, image = dump(ros_map, path.stem, mode=mode, image_format=image_format)

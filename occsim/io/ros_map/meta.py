@@ -27,7 +27,14 @@ _FALSE = {"false", "no", "off", "n"}
 
 
 class MapMode(Enum):
-    """How the brightness of an image is read."""
+    """How the brightness of an image is read.
+
+    Examples
+    --------
+    >>> from occsim.io.ros_map import MapMode
+    >>> MapMode("trinary")
+    <MapMode.TRINARY: 'trinary'>
+    """
 
     TRINARY = "trinary"
     """Occupied, free, or unknown, by two thresholds."""

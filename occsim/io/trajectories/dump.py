@@ -13,7 +13,15 @@ from occsim.trajectory import Trajectory
 
 
 class TrajectoryFormat(Enum):
-    """Formats of trajectory files; the value is the suffix."""
+    """Formats of trajectory files; the value is the suffix.
+
+    Examples
+    --------
+    >>> from occsim import Trajectory, TrajectoryFormat, dump_trajectory
+    >>> one = Trajectory([(1.0, 2.0, 0.0)])
+    >>> dump_trajectory(one, TrajectoryFormat.CSV).decode().split()
+    ['x_px,y_px,theta_rad', '1.0,2.0,0.0']
+    """
 
     CSV = "csv"
     """Comma-separated, with a header that names the columns and their units."""
@@ -53,6 +61,15 @@ def dump_trajectory(
     ------
     ParameterError
         Where `file_format` is no `TrajectoryFormat`.
+
+    Examples
+    --------
+    >>> from occsim import Trajectory, TrajectoryFormat
+    >>> from occsim import dump_trajectory, load_trajectory
+    >>> one = Trajectory([(1.0, 2.0, 0.5)])
+    >>> data = dump_trajectory(one, TrajectoryFormat.CSV)
+    >>> load_trajectory(data, name="one.csv").poses
+    array([[1. , 2. , 0.5]])
     """
     file_format = choice("file_format", file_format, TrajectoryFormat)
     table = np.array(trajectory.poses)

@@ -92,6 +92,12 @@ def read_trajectory_table(
     ------
     TrajectoryError
         As in `load_trajectory`.
+
+    Examples
+    --------
+    >>> from occsim.io.trajectories import read_trajectory_table
+    >>> read_trajectory_table(b"1 2 90").needs_angle_unit
+    True
     """
     data, file_name = read_source(
         source,

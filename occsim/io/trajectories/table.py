@@ -44,6 +44,15 @@ class TrajectoryTable:
         unless a frame is given.
     name : str
         What to call the file.
+
+    Examples
+    --------
+    >>> from occsim import Trajectory, TrajectoryFormat, dump_trajectory
+    >>> from occsim.io.trajectories import read_trajectory_table
+    >>> data = dump_trajectory(Trajectory([(1.0, 2.0, 0.5)]), TrajectoryFormat.CSV)
+    >>> table = read_trajectory_table(data)
+    >>> table.values, table.degrees
+    (array([[1. , 2. , 0.5]]), False)
     """
 
     values: FloatArray
