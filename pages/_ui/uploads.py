@@ -40,7 +40,7 @@ def panel() -> None:
 
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
-    _uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
+    uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
         st.number_input(
@@ -53,7 +53,7 @@ def drawing(key: str) -> None:
 
 def truth(key: str) -> None:
     """Draw the upload of a ground truth."""
-    _uploader(
+    uploader(
         "Ground truth",
         _of_this_drawing(key),
         _use_truth,
@@ -65,7 +65,7 @@ def truth(key: str) -> None:
 def trajectory(key: str) -> None:
     """Draw the upload of a trajectory, and ask for the unit of its angles."""
     key = _of_this_drawing(key)
-    _uploader(
+    uploader(
         "Trajectory",
         key,
         _use_trajectory,
@@ -85,32 +85,45 @@ def _of_this_drawing(key: str) -> str:
     return f"{key}_{state.choice()}_{state.view(DRAWINGS, 0)}"
 
 
-def _uploader(label: str, key: str, use: Callable[[Any], None], about: str) -> Any:
+def uploader(
+    label: str,
+    key: str,
+    use: Callable[[Any], None],
+    about: str,
+    *,
+    several: bool = False,
+) -> None:
+    """Draw an upload; `use` gets the file, or the list of `several`.
+
+    A refusal names the file and changes nothing.
+    """
     # Of any type: the browser would refuse others without saying what they are, and
     # what to do with them.
-    return st.file_uploader(
+    st.file_uploader(
         label,
         key=key,
         help=about,
         on_change=_take,
         args=(key, use),
         max_upload_size=MAX_UPLOAD_MB,
+        accept_multiple_files=several,
     )
 
 
 def _take(key: str, use: Callable[[Any], None]) -> None:
-    """Use the file that was put into an uploader, if one is there."""
-    file = state.value(key)
-    if file is not None:
-        state.edit(partial(_use, file, use))
+    """Use what was put into an uploader, if anything is there."""
+    given = state.value(key)
+    if given:
+        state.edit(partial(_use, given, use))
 
 
-def _use(file: Any, use: Callable[[Any], None]) -> None:
-    """Use a file; a refusal names it."""
+def _use(given: Any, use: Callable[[Any], None]) -> None:
+    """Use one file or several; a refusal names the first."""
     try:
-        use(file)
+        use(given)
     except OccsimError as error:
-        name = printable(file.name)
+        first = given[0] if isinstance(given, list) else given
+        name = printable(first.name)
         if name in str(error):
             raise
         raise type(error)(f"{name} cannot be used: {error}") from None

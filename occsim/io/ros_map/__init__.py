@@ -2,6 +2,7 @@
 
 from occsim.io.ros_map.files import dump, load, save
 from occsim.io.ros_map.meta import MapMode
+from occsim.io.ros_map.packing import load_files, pack
 from occsim.io.ros_map.ros_map import RosMap
 
-__all__ = ["MapMode", "RosMap", "dump", "load", "save"]
+__all__ = ["MapMode", "RosMap", "dump", "load", "load_files", "pack", "save"]
