@@ -3,9 +3,9 @@
 import streamlit as st
 
 from pages._ui import shell, state
-from pages._ui.robot_data import SECTIONS, scans
+from pages._ui.robot_data import SECTIONS, ros, scans
 
-SHOW = dict(zip(SECTIONS, (scans.show,), strict=True))
+SHOW = dict(zip(SECTIONS, (scans.show, ros.show), strict=True))
 
 with shell.page(state.ROBOT_PATH) as lesson:
     shell.heading(lesson)

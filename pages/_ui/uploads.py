@@ -151,7 +151,7 @@ class Pdf:
 def _map_drawing(file: Any) -> None:
     data = file.getvalue()
     n_pages = pdf_page_count(data) if is_pdf(data) else 0
-    side_px = _working_px() if n_pages else DECODED_PX
+    side_px = working_px() if n_pages else DECODED_PX
     _map(load_drawing(data, name=file.name, max_side_px=side_px))
     state.set_view(PAGE, 1)
     digest = state.building().drawing.digest
@@ -161,18 +161,19 @@ def _map_drawing(file: Any) -> None:
 def _map_page() -> None:
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
-        page, side_px = int(state.view(PAGE, 1)), _working_px()
+        page, side_px = int(state.view(PAGE, 1)), working_px()
         _map(load_pdf_page(pdf.data, page, long_side_px=side_px, name=pdf.name))
         digest = state.building().drawing.digest
         state.set_view(PDF, replace(pdf, drawing_digest=digest))
 
 
 def _map(loaded: Drawing) -> None:
-    state.open_own(compute.own_building(loaded, _working_px()))
+    state.open_own(compute.own_building(loaded, working_px()))
     state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 
-def _working_px() -> int:
+def working_px() -> int:
+    """Longer side to which larger drawings are scaled down, px."""
     return int(state.view(WORKING, WORKING_PX))
 
 

@@ -8,15 +8,23 @@ from occsim.io.map_pictures import belief_picture
 from occsim.io.metric import MetricFrame
 from occsim.io.ros_map import MapMode, RosMap
 
+MODES = {"trinary": MapMode.TRINARY, "percentages": MapMode.RAW}
+"""How the values of a map are written, by the word on the screen."""
+
+
+def zipped(of: RosMap, name: str, mode: MapMode) -> bytes:
+    """A ROS map as one file: its yaml and its image."""
+    return ros_map.pack(of, name, mode=mode)
+
 
 def ros_trinary(occupancy_map: OccupancyMap, frame: MetricFrame) -> bytes:
     """The map as ROS programs read it: occupied, free, unknown."""
-    return ros_map.pack(RosMap.of_map(occupancy_map, frame))
+    return zipped(RosMap.of_map(occupancy_map, frame), "map", MapMode.TRINARY)
 
 
 def ros_raw(occupancy_map: OccupancyMap, frame: MetricFrame) -> bytes:
-    """The map with its percentages, in mode raw."""
-    return ros_map.pack(RosMap.of_map(occupancy_map, frame), mode=MapMode.RAW)
+    """The map with its percentages."""
+    return zipped(RosMap.of_map(occupancy_map, frame), "map", MapMode.RAW)
 
 
 def picture(occupancy_map: OccupancyMap, frame: MetricFrame) -> bytes:
