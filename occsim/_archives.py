@@ -39,6 +39,7 @@ def unpacked(
     max_bytes: int,
     what: str,
     needed: str,
+    others_ignored: bool = False,
 ) -> dict[str, bytes]:
     """Return the content of an archive's files by name.
 
@@ -54,6 +55,8 @@ def unpacked(
         Total size of all files, unpacked, bytes.
     what, needed : str
         What it is, and what is needed in place of a damaged file, for messages.
+    others_ignored : bool, default False
+        Whether files of other names are passed over, not refused.
 
     Returns
     -------
@@ -64,12 +67,12 @@ def unpacked(
     ArchiveError
         Where it is not an archive, is damaged or too large, or holds other files.
     """
-    n_entries = data.count(_ENTRY_MARK)
-    if n_entries > MAX_ENTRIES:
-        raise ArchiveError(f"{what} has few files; got {n_entries}")
+    _check_entries(data, what)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             entries = archive.infolist()
+            if others_ignored:
+                entries = [entry for entry in entries if entry.filename in limits]
             _check_names([entry.filename for entry in entries], limits, required, what)
             _check_packing(entries, what)
             _check_sizes(entries, limits, max_bytes)
@@ -80,6 +83,37 @@ def unpacked(
         raise ArchiveError(
             f"it is not an undamaged zip archive; {needed} is needed"
         ) from None
+
+
+def names_in(data: bytes, *, what: str, needed: str) -> list[str]:
+    """Return the names of an archive's files; nothing is unpacked.
+
+    Parameters
+    ----------
+    data : bytes
+        The archive.
+    what, needed : str
+        As in `unpacked`.
+
+    Raises
+    ------
+    ArchiveError
+        Where it is not an archive, is damaged, or has too many files.
+    """
+    _check_entries(data, what)
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return archive.namelist()
+    except _DAMAGE:
+        raise ArchiveError(
+            f"it is not an undamaged zip archive; {needed} is needed"
+        ) from None
+
+
+def _check_entries(data: bytes, what: str) -> None:
+    n_entries = data.count(_ENTRY_MARK)
+    if n_entries > MAX_ENTRIES:
+        raise ArchiveError(f"{what} has few files; got {n_entries}")
 
 
 def _check_names(

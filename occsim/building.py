@@ -350,8 +350,26 @@ def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:
         Scaling down keeps every wall. An image of any other size is returned at its own
         size, which `Building` refuses.
     """
-    fit = Transform.fit(image.shape, max(shape))
-    mask = world_from_image(image).occupied
+    return mask_of_size(world_from_image(image).occupied, shape)
+
+
+def mask_of_size(mask: BoolArray, shape: tuple[int, int]) -> BoolArray:
+    """Return a mask scaled down to a drawing's size, if it is one of that drawing.
+
+    Parameters
+    ----------
+    mask : ndarray of bool
+        Of the drawing's size, or of that which it had before it was scaled down.
+    shape : tuple of int
+        Height and width of the drawing, px.
+
+    Returns
+    -------
+    ndarray of bool
+        As it is where it has any other size.
+    """
+    height, width = mask.shape
+    fit = Transform.fit((height, width), max(shape))
     return fit.mask(mask) if fit.new_shape == shape else mask
 
 

@@ -70,6 +70,10 @@ ANY_SETTINGS = st.builds(
     handover=st.sampled_from(Handover),
     objectives=st.sampled_from(Objectives),
     elitism=st.sampled_from(Elitism),
+    **{name: bounded(name) for name in ("log_cell_m", "usable_range_m")},
+    log_max_range_m=bounded("log_max_range_m"),
+    log_behind_hit=st.sampled_from(BehindHit),
+    log_clear_no_hit=st.booleans(),
     **{name: bounded(name) for name in ("min_recall", "tolerance")},
     **{name: bounded(name) for name in ("pop_size", "n_gen", "seed")},
 )

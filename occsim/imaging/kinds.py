@@ -23,13 +23,13 @@ class FileKind(Enum):
     PDF = "a PDF", "open it as a drawing"
     ROBOT_MAP = (
         "a robot's map in ROS format",
-        "occsim.io.ros_map reads it, together with its .yaml",
+        "open it together with its .yaml on the page Robot data",
     )
     MAP_YAML = (
         "the .yaml of a robot's map in ROS format",
-        "occsim.io.ros_map reads it, together with its image",
+        "open it together with its image on the page Robot data",
     )
-    CARMEN_LOG = "a robot's log in CARMEN format", "occsim.io.carmen reads it"
+    CARMEN_LOG = "a robot's log in CARMEN format", "open it on the page Robot data"
     ROS_BAG = "a ROS 1 bag", "export its scans as a CARMEN log"
     ROS_BAG_SQLITE = (
         "an SQLite database, as ROS 2 bags are",

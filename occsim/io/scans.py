@@ -204,6 +204,7 @@ def load(
     source: bytes | str | Path,
     *,
     metres_per_px: float = 0.05,
+    max_range_m: float | None = None,
     usable_range_m: float | None = None,
 ) -> MetricScans:
     """Return the scans of an NPZ file in metres.
@@ -214,6 +215,9 @@ def load(
         The file's content, or where it is: the arrays that `dump` writes, float64.
     metres_per_px, usable_range_m
         As in `metric_scans`.
+    max_range_m : float, optional
+        A reading at or beyond it is no return; by default the file's own maximum is
+        how far the range finder reaches.
 
     Returns
     -------
@@ -235,8 +239,12 @@ def load(
     array([[10., 20., 10.]])
     """
     checked_length("metres_per_px", metres_per_px)
-    if usable_range_m is not None:
-        checked_length("usable_range_m", usable_range_m)
+    for option, value in (
+        ("max_range_m", max_range_m),
+        ("usable_range_m", usable_range_m),
+    ):
+        if value is not None:
+            checked_length(option, value)
     data, _ = read_source(
         source,
         what="the scans",
@@ -250,6 +258,10 @@ def load(
     if arrays["max_range_m"].size != 1:
         raise RobotFileError("max_range_m must be one number")
     most = arrays.pop("max_range_m").item()
+    if max_range_m is not None and max_range_m < most:
+        most = float(max_range_m)
+        ranges = np.asarray(arrays["ranges_m"], dtype=np.float64)
+        arrays["ranges_m"] = np.where(ranges >= most, np.inf, ranges)
     try:
         return metric_scans(
             arrays["poses_m"],

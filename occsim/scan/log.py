@@ -145,6 +145,21 @@ class ScanLog(ShortRepr):
         index = whole_number("index", index, 0, self.n_scans - 1)
         return Scan(self.bearings_rad, self.ranges_px[index], self.max_range_px)
 
+    def every_nth(self, n: int) -> "ScanLog":
+        """Return the first scan and every n-th one after it.
+
+        Raises
+        ------
+        ParameterError
+            Where n is not 1 or more.
+        """
+        n = whole_number("n", n, 1, 10**9)
+        if n == 1:
+            return self
+        return ScanLog(
+            self.poses[::n], self.bearings_rad, self.ranges_px[::n], self.max_range_px
+        )
+
     def hit_points_px(self) -> FloatArray:
         """Return where beams met something, scan by scan.
 

@@ -66,6 +66,8 @@ HOME_COLUMNS = (
     Column(prior_drawing=PriorDrawing.D),
 )
 """The home page maps a building with no drawing, with its own, and with another's."""
+LOG_COLUMNS = (Column(uninformative=True, behind_hit=BehindHit.UNSEEN, cell_px=1),)
+"""A robot's log is mapped without a drawing, in cells of one pixel of its own map."""
 _LETTERS = dict(
     zip("dfwscurbz", [one.name for one in fields(Column)], strict=True),
 )

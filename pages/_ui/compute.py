@@ -36,6 +36,7 @@ from occsim.imaging.tilt import estimate_tilt
 from occsim.imaging.transform import Transform
 from occsim.io.images import class_png, drawing_png, png
 from occsim.io.replay import MAX_ENTRIES
+from occsim.io.ros_map import RosMap, building_from_map
 from occsim.priors import (
     SOURCE_AXIS,
     PriorSweep,
@@ -99,6 +100,11 @@ def with_walls(building: Building) -> Building:
 def own_building(drawing: Drawing, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
     return WORKER.open_drawing(drawing, working_px)
+
+
+def building_of_map(ros_map: RosMap, name: str, working_px: int) -> Building:
+    """A building from a robot's map; kept in the session, not cached."""
+    return WORKER.call(building_from_map, ros_map, name, working_px=working_px)
 
 
 def anonymous(building: Building) -> Building:

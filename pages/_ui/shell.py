@@ -97,6 +97,12 @@ LESSONS = (
         "Does it hold for your building?",
     ),
     Lesson(
+        "pages/4_Robot_data.py",
+        "Robot data",
+        "A robot's own log of scans as a map in metres; maps of ROS in and out.",
+        "Does it hold for a robot's own scans?",
+    ),
+    Lesson(
         "pages/9_Exercises.py",
         "Exercises",
         "Find out for yourself: each exercise opens a page with everything set, and is "

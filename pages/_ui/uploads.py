@@ -40,7 +40,7 @@ def panel() -> None:
 
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
-    _uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
+    uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
         st.number_input(
@@ -53,7 +53,7 @@ def drawing(key: str) -> None:
 
 def truth(key: str) -> None:
     """Draw the upload of a ground truth."""
-    _uploader(
+    uploader(
         "Ground truth",
         _of_this_drawing(key),
         _use_truth,
@@ -65,7 +65,7 @@ def truth(key: str) -> None:
 def trajectory(key: str) -> None:
     """Draw the upload of a trajectory, and ask for the unit of its angles."""
     key = _of_this_drawing(key)
-    _uploader(
+    uploader(
         "Trajectory",
         key,
         _use_trajectory,
@@ -85,32 +85,45 @@ def _of_this_drawing(key: str) -> str:
     return f"{key}_{state.choice()}_{state.view(DRAWINGS, 0)}"
 
 
-def _uploader(label: str, key: str, use: Callable[[Any], None], about: str) -> Any:
+def uploader(
+    label: str,
+    key: str,
+    use: Callable[[Any], None],
+    about: str,
+    *,
+    several: bool = False,
+) -> None:
+    """Draw an upload; `use` gets the file, or the list of `several`.
+
+    A refusal names the file and changes nothing.
+    """
     # Of any type: the browser would refuse others without saying what they are, and
     # what to do with them.
-    return st.file_uploader(
+    st.file_uploader(
         label,
         key=key,
         help=about,
         on_change=_take,
         args=(key, use),
         max_upload_size=MAX_UPLOAD_MB,
+        accept_multiple_files=several,
     )
 
 
 def _take(key: str, use: Callable[[Any], None]) -> None:
-    """Use the file that was put into an uploader, if one is there."""
-    file = state.value(key)
-    if file is not None:
-        state.edit(partial(_use, file, use))
+    """Use what was put into an uploader, if anything is there."""
+    given = state.value(key)
+    if given:
+        state.edit(partial(_use, given, use))
 
 
-def _use(file: Any, use: Callable[[Any], None]) -> None:
-    """Use a file; a refusal names it."""
+def _use(given: Any, use: Callable[[Any], None]) -> None:
+    """Use one file or several; a refusal names the first."""
     try:
-        use(file)
+        use(given)
     except OccsimError as error:
-        name = printable(file.name)
+        first = given[0] if isinstance(given, list) else given
+        name = printable(first.name)
         if name in str(error):
             raise
         raise type(error)(f"{name} cannot be used: {error}") from None
@@ -138,7 +151,7 @@ class Pdf:
 def _map_drawing(file: Any) -> None:
     data = file.getvalue()
     n_pages = pdf_page_count(data) if is_pdf(data) else 0
-    side_px = _working_px() if n_pages else DECODED_PX
+    side_px = working_px() if n_pages else DECODED_PX
     _map(load_drawing(data, name=file.name, max_side_px=side_px))
     state.set_view(PAGE, 1)
     digest = state.building().drawing.digest
@@ -148,18 +161,19 @@ def _map_drawing(file: Any) -> None:
 def _map_page() -> None:
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
-        page, side_px = int(state.view(PAGE, 1)), _working_px()
+        page, side_px = int(state.view(PAGE, 1)), working_px()
         _map(load_pdf_page(pdf.data, page, long_side_px=side_px, name=pdf.name))
         digest = state.building().drawing.digest
         state.set_view(PDF, replace(pdf, drawing_digest=digest))
 
 
 def _map(loaded: Drawing) -> None:
-    state.open_own(compute.own_building(loaded, _working_px()))
+    state.open_own(compute.own_building(loaded, working_px()))
     state.set_view(DRAWINGS, state.view(DRAWINGS, 0) + 1)
 
 
-def _working_px() -> int:
+def working_px() -> int:
+    """Longer side to which larger drawings are scaled down, px."""
     return int(state.view(WORKING, WORKING_PX))
 
 

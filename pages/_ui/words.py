@@ -61,6 +61,13 @@ def percent(value: float) -> str:
     return DASH if value != value else f"{100 * value:.1f} %"
 
 
+def ordinal(number: int) -> str:
+    """A number as a place in a row: 2nd, 3rd, 11th."""
+    endings = {1: "st", 2: "nd", 3: "rd"}
+    teens = number % 100 in (11, 12, 13)
+    return f"{number}{'th' if teens else endings.get(number % 10, 'th')}"
+
+
 def term(name: str, shown: str = "") -> str:
     """Return HTML that shows a term, and its meaning when it is pointed at.
 

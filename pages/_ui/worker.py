@@ -1,9 +1,10 @@
-"""A second process that opens uploaded drawings, so that sliders need not wait.
+"""A second process that opens uploaded files, so that sliders need not wait.
 
 Python runs one thread at a time: half a second of wall detection and tour planning in
-this process would stop everyone's sliders. `multiprocessing` would import the page of
-the student who asked into the new process, so this is a plain subprocess. It is started
-on first use, works on one drawing after another, and is replaced when it ends.
+this process would stop everyone's sliders, and so would a robot's log.
+`multiprocessing` would import the page of the student who asked into the new process,
+so this is a plain subprocess. It is started on first use, works on one file after
+another, and is replaced when it ends.
 
 Only this process talks to it, through pipes: what it unpickles is its own.
 """
@@ -15,12 +16,15 @@ import pickle
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from occsim import OccsimError
 from occsim.building import Building, building_from_drawing
 from occsim.imaging import Drawing
+
+T = TypeVar("T")
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -40,14 +44,24 @@ class Worker:
         OccsimError
             Where the drawing is refused.
         """
+        return self.call(building_from_drawing, drawing, working_px=working_px)
+
+    def call(self, function: Callable[..., T], *args: object, **kwargs: object) -> T:
+        """Return what a function of a module does, which must not import Streamlit.
+
+        Raises
+        ------
+        OccsimError
+            Where the function does.
+        """
         with self._lock:
             try:
-                made = self._exchange((drawing, working_px))
+                made = self._exchange((function, args, kwargs))
             except (OSError, EOFError, pickle.UnpicklingError):
                 self.end()
                 made = None
         if made is None:  # no process can be started, or it was killed
-            return building_from_drawing(drawing, working_px=working_px)
+            return function(*args, **kwargs)
         if isinstance(made, OccsimError):
             raise made
         return made
@@ -91,11 +105,11 @@ def main() -> None:
     requests, replies = sys.stdin.buffer, sys.stdout.buffer
     while True:
         try:
-            drawing, working_px = pickle.load(requests)
+            function, args, kwargs = pickle.load(requests)
         except EOFError:
             return
         try:
-            made: object = building_from_drawing(drawing, working_px=working_px)
+            made: object = function(*args, **kwargs)
         except OccsimError as error:
             made = error
         pickle.dump(made, replies, pickle.HIGHEST_PROTOCOL)

@@ -34,7 +34,7 @@ function playerOf(changes = {}) {
   const scene = { nReadings: 40, pixels };
   const logs = new Map([["log", column.log]]);
   const state = { ...DOCUMENT, ...changes };
-  const header = { hidden: [], locked: [] };
+  const header = { hidden: [], locked: [], hasTruth: true, hasPrior: true };
   const p = { root, header, scene, logs, columns: [column], state, playing: false, tab: "scores" };
   player.fitState(p);
   player.seek(column.log, p.state.step);

@@ -58,6 +58,25 @@ test("walls are read as their layout says", () => {
   assert.deepEqual([...player.decodeWalls(walls)], [1, 0, 0, 1, 0, 0]);
 });
 
+test("beams are read as their layout says", () => {
+  const beams = player.decodeBeams(
+    bufferOf(
+      Uint32Array.of(0x3242474f, 1, 3, 0),
+      Float64Array.of(40),
+      Float32Array.of(-0.5, 0, 0.5),
+      Uint16Array.of(32767, 65534, 65535),
+    ),
+  );
+  assert.deepEqual([beams.nBeams, beams.reachPx], [3, 40]);
+  assert.deepEqual([...beams.bearings], [-0.5, 0, 0.5]);
+  // Half the reach and a hit; the whole reach and none; nothing said.
+  const scene = { poses: Float32Array.of(10, 20, 0.5) };
+  const ends = player.endsOf({ beams, scene }, 0);
+  assert.deepEqual(ends.length, 2);
+  assert.ok(Math.abs(ends[0][0] - 30) < 1e-3 && ends[0][1] === 20 && ends[0][2]);
+  assert.ok(!ends[1][2] && Math.abs(Math.hypot(ends[1][0] - 10, ends[1][1] - 20) - 40) < 1e-9);
+});
+
 test("header and payloads come apart, also from the middle of a buffer", () => {
   const header = Buffer.from(JSON.stringify({ name: "\u00e9", sizes: [2, 0, 3] }));
   const length = Buffer.alloc(4);

@@ -8,7 +8,7 @@ from typing import Any
 import streamlit as st
 
 from occsim.building import Building
-from pages._ui.columns import HOME_COLUMNS, Column
+from pages._ui.columns import HOME_COLUMNS, LOG_COLUMNS, Column
 from pages._ui.components.player import (
     PlayerDocument,
     decode_commit,
@@ -21,8 +21,12 @@ from pages._ui.state.held import keep_settings, limits
 PLAYER_KEY = "map_player"
 TWO_MAPS_KEY = "two_maps"
 HOME_KEY = "home_player"
+ROBOT_KEY = "robot_player"
+BY_THEMSELVES = (HOME_KEY, ROBOT_KEY)
+"""Players whose building and maps are not those of the settings."""
 TWO_MAPS_PATH = "pages/3_Two_maps.py"
 HOME_PATH = "app.py"
+ROBOT_PATH = "pages/4_Robot_data.py"
 OF_COLUMN = ("p_wall", "p_space", "uninformative", "rule")
 """Settings of the app that the single map's player holds."""
 SHARED = (*OF_COLUMN, "overlay", "columns")
@@ -32,13 +36,18 @@ NEW_PLAYED = {
     PLAYER_KEY: PlayerDocument(),
     TWO_MAPS_KEY: PlayerDocument(),
     HOME_KEY: PlayerDocument(columns=HOME_COLUMNS, compact=True),
+    ROBOT_KEY: PlayerDocument(columns=LOG_COLUMNS),
 }
 """What has been played in a new session: nothing."""
 
 
 def player_here() -> str:
     """The key of the player that a link to this page speaks of."""
-    players = {TWO_MAPS_PATH: TWO_MAPS_KEY, HOME_PATH: HOME_KEY}
+    players = {
+        TWO_MAPS_PATH: TWO_MAPS_KEY,
+        HOME_PATH: HOME_KEY,
+        ROBOT_PATH: ROBOT_KEY,
+    }
     return players.get(st.session_state.get("path", ""), PLAYER_KEY)
 
 
@@ -60,8 +69,8 @@ def player_document(key: str) -> PlayerDocument:
 
 
 def _from_settings(key: str, settings: Settings) -> dict[str, Any]:
-    if key == HOME_KEY:
-        return {}  # it shows no setting
+    if key in BY_THEMSELVES:
+        return {}  # they show no setting
     if key == TWO_MAPS_KEY:
         return {"columns": settings.columns, "overlay": settings.overlay}
     return {"columns": (settings.column,), "overlay": settings.overlay}
@@ -76,7 +85,7 @@ def take_from_player(key: str) -> PlayerDocument:
     state = st.session_state
     if key == HOME_KEY:
         document = replace(document, columns=_home_columns(document))
-    else:
+    elif key not in BY_THEMSELVES:
         if "transport" in limits().held:
             document = replace(document, step=player_document(key).step)
         keep_settings(with_changes(state.settings, _to_settings(key, document)))
@@ -121,13 +130,29 @@ def open_players(building: Building) -> None:
     """Let the players open where they do on a building that was just chosen."""
     st.session_state.played = {
         key: played
-        if key == HOME_KEY  # it has a building of its own
+        if key in BY_THEMSELVES
         else replace(
             played, step=opening_step(key, building), pin_px=None, predicted=None
         )
         for key, played in st.session_state.played.items()
     }
     forget_player()
+
+
+def open_log_player(identity: str, step: int, columns: tuple[Column, ...]) -> None:
+    """Show another log from a step on, or other maps of the same log."""
+    state = st.session_state
+    played, shown = state.played[ROBOT_KEY], state.get("log_shown")
+    changes: dict[str, Any] = {}
+    if shown is None or shown[0] != identity:
+        is_linked = shown is None and played.step > 0
+        changes = {"step": played.step if is_linked else step, "pin_px": None}
+    if shown is None or shown[1] != columns:
+        changes["columns"] = columns
+    state.log_shown = identity, columns
+    if changes:
+        state.played = state.played | {ROBOT_KEY: replace(played, **changes)}
+        state.imposed = {k: v for k, v in state.imposed.items() if k != ROBOT_KEY}
 
 
 def restart_home() -> None:

@@ -8,6 +8,7 @@ import streamlit as st
 from occsim.imaging.transform import Transform
 from pages._ui import compute, state, uploads, words
 from pages._ui.components.board import BoardMode, BoardPoint
+from pages._ui.robot_data import ros
 from pages._ui.your_building import drawn, lengths
 
 KEY = "board_crop"
@@ -22,6 +23,8 @@ def show() -> None:
         corners = drawn.points_board(KEY, BoardMode.CROP)
     with right:
         uploads.drawing("workshop_drawing")
+        with st.popover("A robot's map (ROS)", width="stretch"):
+            ros.panel()
         st.select_slider(
             "Working size (px)",
             [500, 750, 1000, 1250, 1500, 2000, 2500, 3000],

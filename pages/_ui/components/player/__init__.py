@@ -25,7 +25,12 @@ from pages._ui.components.player.document import (
     encode_document,
     held_parts,
 )
-from pages._ui.components.player.texts import COLOURS, TEXTS, header_words
+from pages._ui.components.player.texts import (
+    COLOURS,
+    TEXTS,
+    header_words,
+    overlay_options,
+)
 from pages._ui.limits import NONE, Limits
 from pages._ui.settings import TABLE
 
@@ -72,7 +77,7 @@ COMPONENT = "map_player"
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a replay: a scene, a log or walls, from `occsim.io.replay`.
+    """One part of a replay: a scene, a log, walls or beams, from `occsim.io`.
 
     The name says which log or walls it is; ``parts.js`` builds the same names from the
     setting of a map.
@@ -94,11 +99,16 @@ class Replay:
 
     ``base`` changes with the building, the sensor and all else that a part's name does
     not say. ``drawings`` are those that the prior of this building can be made from.
+    Without a truth there are no scores, without a prior no controls of one. ``paper``
+    names the picture beside a single map.
     """
 
     base: str
     parts: tuple[Part, ...]
     drawings: tuple[PriorDrawing, ...]
+    has_truth: bool = True
+    has_prior: bool = True
+    paper: str = "Drawing"
 
 
 def map_player(
@@ -169,13 +179,17 @@ def player_data(
         "parts": parts,
         "document": encode_document(document),
         "fixed": dict(fixed or {}),
+        "hasTruth": replay.has_truth,
+        "hasPrior": replay.has_prior,
+        "paper": replay.paper,
         "constants": {"decisionEps": DECISION_EPS, "priorScale": PRIOR_SCALE},
         "limits": {name: _limits(name) for name in ("p_wall", "p_space")},
         "speeds": SPEEDS,
         "colours": COLOURS,
         "texts": {
             **TEXTS,
-            "words": header_words(list(replay.drawings)),
+            "words": header_words(replay.drawings, fixed or {}),
+            "overlays": overlay_options(has_truth=replay.has_truth),
             "presets": [_example(*example) for example in examples],
         },
     }

@@ -23,12 +23,14 @@ function say({ root }, words) {
 function stateWords(p) {
   const { step, compact } = p.state;
   if (compact) return `${stepWords(p)}: ${storyWords(p)}`;
-  const maps = isHidden(p, "scores") ? [] : p.columns.map(({ series }, i) => {
+  const isScored = p.header.hasTruth && !isHidden(p, "scores");
+  const maps = (isScored ? p.columns : []).map(({ series }, i) => {
     const scores = p.header.texts.scores.map(
       ({ name, label, unit }) => `${label} ${UNITS[unit].text(series.looked[name][step])}`,
     );
     return `${isSeveral(p) ? `map ${LETTERS[i]}, ` : ""}looked at: ${scores.join(", ")}`;
   });
-  const pinned = p.pin === null ? [] : p.columns.map((c) => cellWords(c, cellHolding(c.log, ...p.pin)));
-  return [`${stepWords(p)}: ${maps.join("; ")}`, ...pinned].join(". ");
+  const pinned = p.pin === null ? [] : p.columns.map((c) => cellWords(p, c, cellHolding(c.log, ...p.pin)));
+  const now = maps.length ? `${stepWords(p)}: ${maps.join("; ")}` : stepWords(p);
+  return [now, ...pinned].join(". ");
 }

@@ -2,6 +2,7 @@
 
 const TWO_PI = 2 * Math.PI;
 const ROBOT_RADIUS = 5; // on the screen, px
+const BEAM_END = 3;
 
 const PAINTERS = {
   drawing: (p, _, context) => {
@@ -75,6 +76,46 @@ function drawPath(p, context) {
 }
 
 function drawSensor(p, context, isFilled) {
+  if (p.beams) drawBeams(p, context, isFilled);
+  else drawCone(p, context, isFilled);
+}
+
+// The ends of a scan's beams that say something: [x, y, whether it is a hit].
+function endsOf({ beams, scene }, index) {
+  const { nBeams, reachPx, bearings, ranges } = beams;
+  const [x, y, theta] = poseOf(scene, index);
+  const ends = [];
+  for (let b = 0; b < nBeams; b++) {
+    const range = ranges[index * nBeams + b];
+    if (range === NOTHING) continue;
+    const [z, bearing] = [(range / REACH) * reachPx, theta + bearings[b]];
+    ends.push([x + z * Math.cos(bearing), y + z * Math.sin(bearing), range < REACH]);
+  }
+  return ends;
+}
+
+function drawBeams(p, context, isFilled) {
+  const { sensor, halo } = p.header.colours;
+  const index = currentReading(p);
+  const [x, y] = poseOf(p.scene, index);
+  const ends = endsOf(p, index);
+  context.beginPath();
+  for (const [endX, endY] of ends) {
+    context.moveTo(x, y);
+    context.lineTo(endX, endY);
+  }
+  stroke(p, context, sensor, 1, isFilled ? 0.3 : 0.12);
+  const side = BEAM_END / p.scale;
+  context.beginPath();
+  for (const [endX, endY, isHit] of ends) {
+    if (isHit) context.rect(endX - side / 2, endY - side / 2, side, side);
+  }
+  stroke(p, context, halo, 1, 0.6);
+  context.fillStyle = sensor;
+  context.fill();
+}
+
+function drawCone(p, context, isFilled) {
   const { scene, scale } = p;
   const { sensor, halo } = p.header.colours;
   const [x, y, theta] = poseOf(scene, currentReading(p));

@@ -57,6 +57,7 @@ function newTable(p) {
 }
 
 function showTables(p) {
+  if (!p.header.hasTruth) return;
   for (const { table, column } of p.views) if (table) showTable(p, table, column);
 }
 
@@ -121,17 +122,17 @@ function showLadders(p) {
   p.termRange = [Math.min(-1, ...ends), Math.max(1, ...ends)];
   maps.forEach((view, i) => {
     view.ladder = drawLadder(p, view.ladderCanvas, bars[i]);
-    if (view.verdict) setText(view.verdict, verdictWords(p.columns[view.column], p.pin));
+    if (view.verdict) setText(view.verdict, verdictWords(p, p.columns[view.column]));
   });
 }
 
 // The last rung, in words.
-function verdictWords(column, point) {
-  const c = cellHolding(column.log, ...point);
+function verdictWords({ header, pin }, column) {
+  const c = cellHolding(column.log, ...pin);
   const logOdds = logOddsAt(column, c);
   const verdict = declaresWall(column, logOdds) ? "wall" : "no wall";
-  const truth = column.log.truth[c] ? "wall" : "free";
-  return `Free with probability ${probability(pFreeOf(logOdds))}: declared ${verdict}; in truth ${truth}`;
+  const words = `Free with probability ${probability(pFreeOf(logOdds))}: declared ${verdict}`;
+  return header.hasTruth ? `${words}; in truth ${column.log.truth[c] ? "wall" : "free"}` : words;
 }
 
 function termCard(column, { term, to, isOff }) {

@@ -63,7 +63,7 @@ function cellKey(p, view, { key }) {
   const leavesRow = Math.abs(move) === 1 && Math.floor(to / nCols) !== Math.floor(from / nCols);
   if (to >= 0 && to < nCells && !leavesRow) {
     hoverOn(p, view, to, screenPoint(p, view, centreOf(log, to)));
-    say(p, cellWords(p.columns[view.column], to));
+    say(p, cellWords(p, p.columns[view.column], to));
   }
   return true;
 }
@@ -88,7 +88,7 @@ function setPin(p, point) {
 }
 
 function openTab(p, name) {
-  p.tab = name;
+  p.tab = p.header.hasTruth ? name : "cell"; // without a truth there are no scores
   refresh(p);
 }
 
@@ -101,15 +101,17 @@ function cellTitle(grid, c) {
 
 function factsIn(p, view, cell) {
   if (view.kind === "difference") return differenceFacts(p, cell);
-  return cellFacts(p.columns[view.column], cell);
+  return cellFacts(p, p.columns[view.column], cell);
 }
 
-function cellFacts(column, c) {
+function cellFacts({ header }, column, c) {
   const logOdds = logOddsAt(column, c);
   const { truth, counts } = column.log;
+  const known = [];
+  if (header.hasPrior) known.push(["class", column.isWall[c] ? "wall cell" : "space cell"]);
+  if (header.hasTruth) known.push(["truth", truth[c] ? "wall" : "free"]);
   return [
-    ["class", column.isWall[c] ? "wall cell" : "space cell"],
-    ["truth", truth[c] ? "wall" : "free"],
+    ...known,
     ["prior p_free", column.pFreePrior[column.isWall[c]].toFixed(3)],
     ["readings k", String(counts[c])],
     ["log-odds l", signed(logOdds, 3)],
@@ -119,8 +121,8 @@ function cellFacts(column, c) {
   ];
 }
 
-function cellWords(column, c) {
-  const facts = cellFacts(column, c).map((fact) => fact.join(" "));
+function cellWords(p, column, c) {
+  const facts = cellFacts(p, column, c).map((fact) => fact.join(" "));
   return `${cellTitle(column.log, c)}: ${facts.join(", ")}`;
 }
 
@@ -137,7 +139,7 @@ function showTab(p) {
   }
   root.dataset.pinned = pin === null ? "0" : "1";
   if (tab === "scores") showTables(p);
-  if (tab === "scores" || isSeveral(p)) showCurves(p);
+  if (p.header.hasTruth && (tab === "scores" || isSeveral(p))) showCurves(p);
   if (tab === "cell" && pin !== null) showPinned(p);
 }
 
@@ -145,7 +147,7 @@ function showPinned(p) {
   const [column] = p.columns;
   const cell = cellHolding(column.log, ...p.pin);
   setText(partOf(p.root, "cell-name"), cellTitle(column.log, cell));
-  partOf(p.root, "cell-facts").replaceChildren(...rows(cellFacts(column, cell)));
+  partOf(p.root, "cell-facts").replaceChildren(...rows(cellFacts(p, column, cell)));
   showLadders(p);
 }
 

@@ -15,6 +15,7 @@ const DECODERS = {
   },
   log: async (bytes) => decodeLog((await inflated(bytes)).buffer),
   walls: async (bytes) => decodeWalls((await inflated(bytes)).buffer),
+  beams: async (bytes) => decodeBeams((await inflated(bytes)).buffer),
 };
 
 async function holdParts(parts, payloads) {

@@ -105,7 +105,7 @@ async function receive(p, data) {
 
 function build(p, header) {
   p.root.classList.toggle("compact", header.document.compact);
-  p.referee = newReferee(p);
+  p.referee = newReferee(p, header);
   buildControls(p, header);
   buildSpeeds(p, header.speeds);
   buildBar(p, header);
@@ -128,6 +128,9 @@ function take(p, header) {
   showLimits(p);
   learnParts(p, header);
   p.scene = partNamed(p, "scene ") ?? p.scene;
+  p.beams = partNamed(p, "beams ") ?? null;
+  p.root.classList.toggle("unjudged", !header.hasTruth);
+  p.root.classList.toggle("unprimed", !header.hasPrior);
   p.theme = themeOf(p.root);
   hideCard(p);
   p.shown = null;
@@ -163,7 +166,7 @@ function fitState(p) {
   state.step = clamp(state.step, 0, scene.nReadings);
   p.pin = state.pin_px && cellHolding(scene.pixels, ...state.pin_px) !== null ? state.pin_px : null;
   state.pin_px = p.pin;
-  if (p.pin !== null) p.tab = "cell";
+  if (p.pin !== null || !p.header.hasTruth) p.tab = "cell";
   p.position = state.step;
   partOf(p.root, "scrub").max = scene.nReadings;
   partOf(p.root, "speed").value = state.speed ?? WHOLE;
@@ -213,12 +216,16 @@ function renewColumn(p, column, setting) {
   if (column.key === key) return false;
   column.key = key;
   setPrior(column, setting);
-  column.curves = scoreCurves(column);
-  column.series = scoreSeries(column.curves, column.log.nCells);
-  column.blank = blankSeries(column.log, p.header.constants);
+  if (p.header.hasTruth) scoreColumn(p, column);
   column.picture ??= newPicture(column.log, p.header.colours);
   paintAll(column.picture, column, p.state.overlay);
   return true;
+}
+
+function scoreColumn(p, column) {
+  column.curves = scoreCurves(column);
+  column.series = scoreSeries(column.curves, column.log.nCells);
+  column.blank = blankSeries(column.log, p.header.constants);
 }
 
 function refresh(p) {
@@ -232,7 +239,7 @@ function refresh(p) {
     showTab(p);
     if (isSeveral(p)) {
       showReferee(p);
-      showQuestion(p);
+      if (p.header.hasTruth) showQuestion(p);
     }
   }
   report(p);

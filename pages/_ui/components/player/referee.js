@@ -1,6 +1,6 @@
 // The difference of two maps: its picture, and the referee's count beside it.
 
-function newReferee(p) {
+function newReferee(p, { hasTruth }) {
   const counts = {};
   const button = (name) => {
     const about = "Pin the next such cell";
@@ -13,7 +13,8 @@ function newReferee(p) {
   const line = (where, from, to) => {
     const more = [names[0].cloneNode(), names[1].cloneNode()];
     const text = element("p", {}, from, button(`${where} 2`), units[where === "looked" ? 0 : 1], to);
-    text.append(more[0], " is right ", button(`${where} 0`), " times, ", more[1], " ");
+    const verb = hasTruth ? " is right " : " declares a wall ";
+    text.append(more[0], verb, button(`${where} 0`), " times, ", more[1], " ");
     text.append(button(`${where} 1`), ".");
     return { text, more };
   };
@@ -37,8 +38,8 @@ function recompare(p) {
   if (!isSeveral(p)) return;
   if (pairOfMaps(p)[1] >= p.columns.length) p.pairing = "01";
   const [a, b] = pairOfMaps(p);
-  p.comparison = newComparison(p.columns[a], p.columns[b], p.scene.pixels);
-  const { colours } = p.header;
+  const { colours, hasTruth } = p.header;
+  p.comparison = newComparison(p.columns[a], p.columns[b], p.scene.pixels, hasTruth);
   const inks = [colours.free, colours.columns[a], colours.columns[b], colours.unseen];
   p.comparison.picture = newPicture(p.comparison, colours);
   p.comparison.inks = inks.map((hex) => pixelOf(rgbOf(hex)));
@@ -87,7 +88,7 @@ function showReferee(p) {
   pairing.hidden = p.columns.length < 3;
   pairing.value = pair.join("");
   p.differenceKeys.replaceChildren(
-    ...pair.map((i) => legendKey(`column${i}`, `${LETTERS[i]} is`)),
+    ...pair.map((i) => legendKey(`column${i}`, p.header.hasTruth ? `${LETTERS[i]} is` : `wall in ${LETTERS[i]}`)),
     legendKey("unseen", "both: wall"),
   );
   setText(note, p.comparison.isByCell ? "" : SIZES_DIFFER);
@@ -116,5 +117,6 @@ function pinNext(p, name) {
 function differenceFacts(p, u) {
   const verdicts = verdictsAt(p.comparison, u).map((isWall) => (isWall ? "wall" : "no wall"));
   const maps = pairOfMaps(p).map((i, at) => [`${LETTERS[i]} declares`, verdicts[at]]);
+  if (!p.header.hasTruth) return maps;
   return [...maps, ["truth", p.comparison.truth[u] ? "wall" : "free"]];
 }

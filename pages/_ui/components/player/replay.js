@@ -46,6 +46,19 @@ function decodeWalls(buffer) {
   return readerOf(buffer, 12).takeFlags(nRows * nCols);
 }
 
+// Ranges are shares of the reach; what says nothing is NOTHING, what reaches farther than
+// anything is believed REACH.
+const NOTHING = 65535;
+const REACH = 65534;
+
+function decodeBeams(buffer) {
+  const [, nScans, nBeams] = new Uint32Array(buffer, 0, 3);
+  const [reachPx] = new Float64Array(buffer, 16, 1);
+  const { take } = readerOf(buffer, 24);
+  const bearings = take(Float32Array, nBeams);
+  return { nBeams, reachPx, bearings, ranges: take(Uint16Array, nScans * nBeams) };
+}
+
 // The cells of each reading: entries indptr[s] to indptr[s + 1] are those of reading s.
 function expandRuns(runs, gap, length, nEntries) {
   const indptr = new Uint32Array(runs.length + 1);

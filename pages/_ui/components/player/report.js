@@ -3,8 +3,11 @@
 function report({ root, header, state, scene, columns }) {
   const { step } = state;
   const [{ curves, log }] = columns;
-  const [tp, fp, fn, tn] = curves.looked.counts.map((curve) => curve[step]);
-  Object.assign(root.dataset, { tp, fp, fn, tn, step, explored: curves.explored[step] });
+  root.dataset.step = step;
+  if (header.hasTruth) {
+    const [tp, fp, fn, tn] = curves.looked.counts.map((curve) => curve[step]);
+    Object.assign(root.dataset, { tp, fp, fn, tn, explored: curves.explored[step] });
+  }
   const { nReadings } = scene;
   Object.assign(root.dataset, { rev: header.document.rev, nReadings, cellPx: log.cellPx });
   const [{ p_wall, p_space }] = state.columns;
@@ -20,19 +23,23 @@ function inspection(p) {
   return { ...first, hover: cellOf(hover), pin: cellOf(pin), scale, bars, maps: [first, ...others] };
 }
 
-function columnReport({ pin, state }, column) {
+function columnReport({ pin, state, header }, column) {
   const { log, curves, series } = column;
   const { step } = state;
   const regionOf = (name) => ({
     counts: curves[name].counts.map((curve) => curve[step]),
     bits: series[name].bits[step],
   });
-  return {
+  const map = {
     logOdds: Array.from(log.counts, (_, c) => logOddsAt(column, c)),
     history: pin && historyOf(column, cellHolding(log, ...pin)),
+    prior: column.pFreePrior,
+  };
+  if (!header.hasTruth) return map;
+  return {
+    ...map,
     looked: regionOf("looked"),
     unseen: regionOf("unseen"),
     bits: series.all.bits[step],
-    prior: column.pFreePrior,
   };
 }

@@ -54,17 +54,19 @@ function canvasNames(p, kind, column) {
 }
 
 function captionOf(p, kind, column) {
-  if (kind === "difference") return [element("span", { class: "name" }, "Who is right"), p.differenceKeys];
+  const { hasTruth, paper } = p.header;
+  const difference = hasTruth ? "Who is right" : "Where they differ";
+  if (kind === "difference") return [element("span", { class: "name" }, difference), p.differenceKeys];
   if (p.state.compact) return [element("span", { class: "name" }, storyName(p, column))];
   if (kind === "map" && isSeveral(p)) return [newHeader(p, column)];
-  const name = element("span", { class: "name" }, kind === "map" ? "Map" : "Drawing");
-  return [name, kind === "map" ? p.legend : element("span", { class: "legend" }, ...drawingKeys())];
+  const name = element("span", { class: "name" }, kind === "map" ? "Map" : paper);
+  return [name, kind === "map" ? p.legend : element("span", { class: "legend" }, ...drawingKeys(p))];
 }
 
-const drawingKeys = () => [
+const drawingKeys = ({ beams }) => [
   legendKey("path", "path"),
   legendKey("robot", "robot"),
-  legendKey("cone", "field of view"),
+  beams ? legendKey("beam", "beams") : legendKey("cone", "field of view"),
 ];
 
 const legendKey = (mark, label) =>
@@ -95,7 +97,8 @@ function arrangeSeveral(box, { widthPx, heightPx }, arrangement, nPanes) {
 function layOut(p) {
   const { root, scene, views } = p;
   const arrangement = getComputedStyle(root).getPropertyValue("--arrangement").trim();
-  const beside = arrangement === "wide" && !isSeveral(p) ? SIDE_MIN + COLUMN_GAP : 0;
+  const hasSide = arrangement === "wide" && !isSeveral(p) && p.header.hasPrior;
+  const beside = hasSide ? SIDE_MIN + COLUMN_GAP : 0;
   const width = root.clientWidth - beside;
   const box = { width, height: root.querySelector(".measure").clientHeight };
   const { scale, stacked } = isSeveral(p)

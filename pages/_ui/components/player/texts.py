@@ -1,5 +1,6 @@
 """The words and colours of the player."""
 
+from collections.abc import Mapping, Sequence
 from enum import Enum
 
 from occsim import BehindHit, UpdateRule
@@ -101,8 +102,21 @@ def _pair_text(p_wall: float, p_space: float, about: str) -> dict[str, str]:
     return {"value": ",".join(texts), "label": f"{', '.join(texts)} ({about})"}
 
 
-def header_words(drawings: list[PriorDrawing]) -> dict[str, list[dict[str, str]]]:
-    """The choices for each word of a map's header; drawings of the building's size."""
+def header_words(
+    drawings: Sequence[PriorDrawing], fixed: Mapping[str, object]
+) -> dict[str, list[dict[str, str]]]:
+    """The choices for each word of a map's header; drawings of the building's size.
+
+    Of what the page chooses, its choice alone.
+    """
+    words = _header_words(drawings)
+    for name, value in fixed.items():
+        if name in words:
+            words[name] = [one for one in words[name] if one["value"] == str(value)]
+    return words
+
+
+def _header_words(drawings: Sequence[PriorDrawing]) -> dict[str, list[dict[str, str]]]:
     titles = {one: f"the drawing of {one.value}" for one in drawings} | DRAWINGS
     return {
         "drawing": [*(_option(one, titles[one]) for one in drawings), NO_DRAWING],
@@ -118,9 +132,15 @@ def header_words(drawings: list[PriorDrawing]) -> dict[str, list[dict[str, str]]
     }
 
 
+def overlay_options(*, has_truth: bool) -> list[dict[str, str]]:
+    """What can be shown over a map; without a truth, nothing that needs one."""
+    needs_truth = {Overlay.TRUTH.value, Overlay.ERRORS.value}
+    options = _options(Overlay)
+    return [one for one in options if has_truth or one["value"] not in needs_truth]
+
+
 TEXTS = {
     "rules": _options(UpdateRule),
-    "overlays": _options(Overlay),
     "scores": [
         {"name": k, "label": n, "about": a, "unit": u, "meaning": meaning(n)}
         for k, n, a, u in SCORES

@@ -3,16 +3,17 @@
 // Maps of one cell size are compared cell by cell, others pixel by pixel. A unit is
 // *looked at* where both maps have a reading of it.
 
-const SAME = 0; // the verdicts agree; else 1 + the index of the map that is right
+const SAME = 0; // the verdicts agree; else 1 + the index of the map that is right, or
+// where there is no truth, that declares a wall
 const LOOKED = 4; // added where both maps have a reading
 
 // `pixels` is the world as a grid of cells of 1 px.
-function newComparison(a, b, pixels) {
+function newComparison(a, b, pixels, isJudged = true) {
   const isByCell = a.log.cellPx === b.log.cellPx;
   const { heightPx, widthPx, cellPx, nRows, nCols, nCells, truth } = isByCell ? a.log : pixels;
   const grid = { heightPx, widthPx, cellPx, nRows, nCols, nCells, truth };
   const codes = new Uint8Array(nCells);
-  const comparison = { ...grid, pair: [a, b], isByCell, codes, tally: new Int32Array(8) };
+  const comparison = { ...grid, pair: [a, b], isByCell, isJudged, codes, tally: new Int32Array(8) };
   for (let u = 0; u < nCells; u++) comparison.tally[(codes[u] = codeAt(comparison, u))]++;
   return comparison;
 }
@@ -39,7 +40,8 @@ function codeAt(comparison, u) {
   const looked = a.log.counts[ca] > 0 && b.log.counts[cb] > 0 ? LOOKED : 0;
   const isWallA = declaresWall(a, logOddsAt(a, ca));
   if (isWallA === declaresWall(b, logOddsAt(b, cb))) return looked + SAME;
-  return looked + (isWallA === Boolean(comparison.truth[u]) ? 1 : 2);
+  const isWall = comparison.isJudged ? Boolean(comparison.truth[u]) : true;
+  return looked + (isWallA === isWall ? 1 : 2);
 }
 
 // Judges a unit again; the tally follows. Returns whether its code changed.

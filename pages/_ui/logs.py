@@ -1,0 +1,92 @@
+"""Robots' logs as maps, computed in the worker and shared by all sessions."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from occsim.building import Building
+from pages._ui import compute
+from pages._ui.components.player import Part, Replay
+from pages._ui.robot_data.played import LogOptions, PlayedLog, play_log, simulated_log
+from pages._ui.settings import Settings
+from pages._ui.shared import shared
+from pages._ui.worker import WORKER
+
+PAPER = "Hits of all scans"
+
+
+@dataclass(frozen=True, eq=False)
+class LogFile:
+    """A log as a student gave it, or one simulated in a building."""
+
+    name: str
+    data: bytes
+    is_simulated: bool = False
+
+    @property
+    def digest(self) -> str:
+        """Identifies the content."""
+        return hashlib.sha256(self.data).hexdigest()
+
+
+def options(settings: Settings) -> LogOptions:
+    """How the settings say that a log is mapped."""
+    return LogOptions(
+        cell_m=settings.log_cell_m,
+        usable_range_m=float(settings.usable_range_m),
+        max_range_m=float(settings.log_max_range_m) or None,
+        behind_hit=settings.log_behind_hit,
+        clear_no_hit=settings.log_clear_no_hit,
+    )
+
+
+def played(log: LogFile, settings: Settings) -> PlayedLog:
+    """A log on its map.
+
+    Raises
+    ------
+    OccsimError
+        Where the log is refused, or its map would be too large.
+    """
+    return _played(log.digest, options(settings), log.data)
+
+
+@shared("Mapping the log")
+def _played(digest: str, given: LogOptions, _data: bytes) -> PlayedLog:
+    with compute.core():
+        return WORKER.call(play_log, _data, given)
+
+
+def simulated(building: Building) -> LogFile:
+    """A log that a robot would write on its tour of a building."""
+    data = _simulated(building.digest, compute.anonymous(building))
+    return LogFile("simulated", data, is_simulated=True)
+
+
+@shared("Driving the robot")
+def _simulated(digest: str, _building: Building) -> bytes:
+    with compute.core():
+        return WORKER.call(simulated_log, _building)
+
+
+def replay(log: LogFile, settings: Settings) -> Replay:
+    """What the player needs for the maps of a log."""
+    made, given = played(log, settings), options(settings)
+    return Replay(
+        base=repr((log.digest, given)),
+        parts=(
+            Part("scene", "", made.scene),
+            Part("beams", "", made.beams),
+            Part("log", f"{given.behind_hit.value} 1", made.log),
+            Part("walls", "own found 1", made.no_walls),
+        ),
+        drawings=(),
+        has_truth=False,
+        has_prior=False,
+        paper=PAPER,
+    )
+
+
+def fixed(settings: Settings) -> Mapping[str, object]:
+    """What the page chooses of every map of a log."""
+    return {"behind_hit": settings.log_behind_hit.value, "cell_px": 1}

@@ -1,0 +1,4 @@
+"""The page Robot data: one module for each of its sections."""
+
+SECTIONS = ("A log of scans", "A ROS map")
+"""What the page can show."""

@@ -1,0 +1,139 @@
+"""A log of scans, uploaded or simulated, and the map that it gives."""
+
+from typing import Any
+
+import streamlit as st
+
+from occsim import OccsimError
+from pages._ui import controls, logs, shell, state, uploads, words
+from pages._ui.columns import LOG_COLUMNS
+from pages._ui.components.player import map_player
+from pages._ui.logs import LogFile
+from pages._ui.robot_data import downloads
+from pages._ui.robot_data.played import PlayedLog
+
+LOG, TAKEN = "robot_log", "robot_logs_taken"
+ABOUT = (
+    "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log), or scans as "
+    "NPZ. Its poses are taken as they are."
+)
+
+
+def show() -> None:
+    """Map a log and play it."""
+    _controls()
+    if state.message():
+        shell.say_error(state.message())
+    log = given_log()
+    made = _played(log)
+    if made is None:
+        return
+    st.caption(facts(log, made))
+    key = state.ROBOT_KEY
+    settings = state.settings()
+    identity = f"{log.digest} {logs.options(settings)}"
+    state.open_log_player(identity, len(made.trajectory) // 2, LOG_COLUMNS)
+    state.take_from_player(key)
+    map_player(
+        logs.replay(log, settings),
+        state.player_document(key),
+        key=key,
+        held=state.parts_held(key),
+        fixed=logs.fixed(settings),
+    )
+    downloads.popover(made)
+    _words()
+
+
+def given_log() -> LogFile:
+    """The log that was uploaded; else one simulated in the chosen building."""
+    uploaded = state.view(LOG, None)
+    return logs.simulated(state.building()) if uploaded is None else uploaded
+
+
+def _controls() -> None:
+    with st.container(horizontal=True, vertical_alignment="bottom", key="map_controls"):
+        if state.view(LOG, None) is None:
+            controls.drawing_choice()
+        else:
+            st.button("Back to the simulated log", on_click=_forget)
+        for name in ("log_cell_m", "usable_range_m"):
+            controls.slider(name, width=controls.NARROW_PX)
+        with st.popover("More settings"):
+            controls.radio("log_behind_hit")
+            controls.toggle("log_clear_no_hit")
+            controls.slider("log_max_range_m")
+        with st.popover("Upload a log"):
+            uploads.uploader(
+                "Log of scans", f"own_log_{state.view(TAKEN, 0)}", _use_log, ABOUT
+            )
+            st.caption(ABOUT)
+
+
+def _use_log(file: Any) -> None:
+    log = LogFile(file.name, file.getvalue())
+    logs.played(log, state.settings())  # refused here, or not at all
+    state.set_view(LOG, log)
+
+
+def _forget() -> None:
+    state.set_view(LOG, None)
+    state.set_view(TAKEN, state.view(TAKEN, 0) + 1)
+
+
+def _played(log: LogFile) -> PlayedLog | None:
+    """The log on its map; None where these settings cannot map it."""
+    try:
+        return logs.played(log, state.settings())
+    except OccsimError as error:
+        shell.say_error(str(error))
+        return None
+
+
+def facts(log: LogFile, made: PlayedLog) -> str:
+    """What was mapped, and what was left out."""
+    scan_log, grid = made.scans.scan_log, made.grid
+    scale = made.scans.frame.metres_per_px
+    name = f"{words.plain(log.name)}: "
+    if log.is_simulated:
+        name = "Simulated on the tour of this building, with the errors of a small "
+        name += "laser scanner (Hokuyo URG-04LX): "
+    said = (
+        f"{name}{made.n_scans:,} scans of {scan_log.n_beams} beams; map "
+        f"{grid.width_px * scale:.1f} m × {grid.height_px * scale:.1f} m in cells of "
+        f"{100 * scale:.0f} cm."
+    )
+    if made.every == 1:
+        return said
+    return (
+        f"{said} Of the scans, every {words.ordinal(made.every)} was used: all of them "
+        "would be more than can be played. Larger cells or a shorter usable range "
+        "leave room for more."
+    )
+
+
+def _words() -> None:
+    with st.container(key="map_words"):
+        see, predict, why = st.columns(3, gap="large")
+    with see:
+        st.markdown(
+            "**See.** Left, where beams ended, all scans together; right, the map. A "
+            "cell turns white where beams pass and black where they end; a hatched "
+            "one was never looked at. There is no ground truth, so no score."
+        )
+    with predict:
+        st.markdown(
+            "**Predict.** Under *More settings*, let a scan say that all behind the "
+            "end of a beam is occupied. Will the map have more wall or less?"
+        )
+        with st.expander("And then?"):
+            st.markdown(
+                "More, on the logs of all five reference drawings: what is hidden "
+                "behind a wall is called occupied until another scan looks at it."
+            )
+    with why:
+        st.markdown(
+            "**Why.** A range finder says where a beam ended, not how thick the wall "
+            "is. Real mappers therefore say nothing of what lies behind; the source's "
+            "Eq. 4.22, as printed, does."
+        )

@@ -1,0 +1,98 @@
+"""The page Robot data: a log, simulated or uploaded, becomes a map."""
+
+import numpy as np
+import pytest
+
+from pages._ui.robot_data import scans
+from pages._ui.words import ordinal
+from tests.test_pages import control, file_in, launch, said, upload
+
+PAGE = "pages/4_Robot_data.py"
+LABEL = "Log of scans"
+
+
+def log_of(n=12, beams=9):
+    """A CARMEN log: a robot drives 0.1 m a scan along a corridor, 2 m wide."""
+    bearings = np.linspace(-90.0, 90.0, beams)
+    with np.errstate(divide="ignore"):
+        ranges = np.minimum(1.0 / np.abs(np.sin(np.radians(bearings))), 6.0)
+    words = " ".join(f"{r:.2f}" for r in ranges)
+    lines = [
+        f"FLASER {beams} {words} {0.1 * i:.2f} 0 0 0 0 0 {i} robot {i}"
+        for i in range(n)
+    ]
+    return "\n".join(lines).encode() + b"\n"
+
+
+def caption(app):
+    return next(text for text in said(app.caption) if "scans of" in text)
+
+
+def test_it_opens_with_a_log_of_its_own():
+    app = launch(PAGE)
+    assert not app.error
+    assert "Simulated on the tour of this building" in caption(app)
+
+
+def test_a_log_is_mapped_in_metres():
+    app = upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain")
+    assert not app.error
+    text = caption(app)
+    assert text.startswith("own.log: 12 scans of 9 beams")
+    # Walls 1 m to either side and half a metre around: 3 m high.
+    assert "× 3.0 m in cells of 5 cm" in text
+    # No drawing is chosen while a log of one's own is shown.
+    assert not [box for box in app.selectbox if box.label == "Drawing"]
+
+
+def test_the_cell_size_of_a_log_can_be_changed():
+    app = upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain")
+    app.slider(key=control(app, "log_cell_m")).set_value(0.2).run()
+    assert "in cells of 20 cm" in caption(app)
+
+
+DAMAGED = {
+    "a damaged line": (log_of() + b"FLASER 9 1 2 x\n", "line 13"),
+    "a drawing": (b"\x89PNG\r\n\x1a\n0000", "an image"),
+    "nothing": (b"", "empty"),
+    "words": (b"this is no log\n", "FLASER"),
+}
+
+
+@pytest.mark.parametrize("kind", DAMAGED)
+def test_a_damaged_log_is_refused_in_a_sentence_and_the_last_one_stays(kind):
+    data, says = DAMAGED[kind]
+    app = upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain")
+    app = upload(app, LABEL, "bad.log", data, "text/plain")
+    (message,) = said(app.error)
+    assert "bad.log" in message
+    assert says in message
+    assert caption(app).startswith("own.log")
+
+
+def test_a_map_that_would_be_too_large_is_refused_and_can_be_changed():
+    far = log_of().replace(b" 0.50 0 0 0 0 0", b" 900.0 900 0 0 0 0")
+    app = upload(launch(PAGE), LABEL, "far.log", far, "text/plain")
+    assert "allowed" in said(app.error)[0]
+    assert "Simulated" in caption(app)
+
+
+def test_one_can_go_back_to_the_simulated_log():
+    app = upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain")
+    next(b for b in app.button if b.label.startswith("Back")).click().run()
+    assert "Simulated" in caption(app)
+    assert file_in(app, LABEL) is None
+
+
+def test_what_was_left_out_is_said():
+    app = launch(PAGE)
+    assert "was used" not in caption(app)
+    assert [ordinal(n) for n in (2, 3, 4, 11, 21, 112)] == [
+        "2nd",
+        "3rd",
+        "4th",
+        "11th",
+        "21st",
+        "112th",
+    ]
+    assert scans.LOG == "robot_log"

@@ -1,0 +1,139 @@
+"""Maps of ROS on the pages: in as drawing, ground truth or prior, and out."""
+
+import numpy as np
+import pytest
+
+from occsim.io.ros_map import (
+    MapMode,
+    RosMap,
+    building_from_map,
+    dump,
+    load_files,
+    map_drawing,
+    pack,
+)
+from pages._ui.robot_data import files, ros
+from tests.test_pages import launch, own, said
+
+PAGE = "pages/4_Robot_data.py"
+YOURS = "pages/2_Your_building.py"
+
+
+def values(height=120, width=160):
+    """Two rooms with a door between them, in unknown surroundings."""
+    made = np.full((height, width), -1)
+    made[10:110, 10:150] = 0
+    made[10:110, [10, 11, 80, 81, 148, 149]] = 100
+    made[[10, 11, 108, 109], 10:150] = 100
+    made[50:70, 80:82] = 0
+    return made
+
+
+MAP = RosMap(values(), 0.05, (1.0, 2.0, 0.0))
+
+
+def opened(page=PAGE):
+    app = launch(page)
+    if page == PAGE:
+        app.session_state["view_robot_section"] = "A ROS map"
+        app.session_state["views"] = {"robot_section": "A ROS map"}
+        app.run()
+    return app
+
+
+def give(app, *given):
+    uploader = next(x for x in app.get("file_uploader") if x.label == "ROS map")
+    uploader.set_value([(name, data, "application/zip") for name, data in given])
+    app.run()
+    assert not app.exception
+    return app
+
+
+def click(app, label):
+    next(b for b in app.button if b.label == label).click().run()
+    assert not app.exception
+    return app
+
+
+def two_files(ros_map=MAP, mode=MapMode.RAW):
+    yaml, image = dump(ros_map, mode=mode)
+    return ("map.yaml", yaml), ("map.pgm", image)
+
+
+@pytest.mark.parametrize("page", [PAGE, YOURS])
+def test_a_map_becomes_a_building_with_its_own_walls_and_scale(page):
+    app = click(give(opened(page), *two_files()), "Use as drawing")
+    assert not app.error
+    assert own(app).metres_per_px == pytest.approx(0.05)
+    np.testing.assert_array_equal(own(app).wall_mask, MAP.is_occupied)
+    # The tour keeps to what is known to be free.
+    x, y = own(app).trajectory.poses[:, :2].T.astype(int)
+    assert (MAP.values[y, x] == 0).all()
+
+
+def test_what_is_unknown_is_said():
+    app = give(opened(), ("map.zip", pack(MAP, mode=MapMode.RAW)))
+    (text,) = (one for one in said(app.caption) if "unknown (grey)" in one)
+    share = 100 * (values() == -1).mean()
+    assert f"unknown (grey) {share:.1f} %" in text
+    assert "160 × 120 px of 0.05 m" in text
+
+
+def test_a_level_of_unknown_that_the_file_calls_free_can_be_kept_unknown():
+    yaml, image = dump(MAP)
+    newer = yaml.replace(b"free_thresh: 0.196", b"free_thresh: 0.25")
+    app = give(opened(), ("map.yaml", newer), ("map.pgm", image))
+    assert any("unknown (grey) 0.0 %" in text for text in said(app.caption))
+    app.toggle(key="view_ros_keep_unknown").set_value(True).run()
+    share = 100 * (values() == -1).mean()
+    assert any(f"unknown (grey) {share:.1f} %" in text for text in said(app.caption))
+
+
+def test_a_map_of_the_drawings_size_is_its_ground_truth_or_its_walls():
+    app = click(give(opened(), *two_files()), "Use as drawing")
+    thicker = values()
+    thicker[10:110, 76:86] = 100
+    other = RosMap(thicker, 0.05)
+    app = click(give(app, *two_files(other)), "Use as ground truth")
+    np.testing.assert_array_equal(own(app).truth, other.is_occupied)
+    np.testing.assert_array_equal(own(app).wall_mask, MAP.is_occupied)
+    app = click(app, "Use as prior")
+    np.testing.assert_array_equal(own(app).wall_mask, other.is_occupied)
+
+
+def test_a_map_of_another_size_is_refused_in_a_sentence():
+    app = click(give(opened(), *two_files()), "Use as ground truth")
+    (message,) = said(app.error)
+    assert "must have the drawing's size" in message
+    assert own(app) is None
+
+
+def test_one_file_of_the_two_is_answered_with_what_is_missing():
+    app = give(opened(), two_files()[0])
+    assert "needs one image" in said(app.error)[0]
+    app = give(app, *two_files())
+    assert not app.error
+
+
+def test_our_own_map_and_prior_can_be_downloaded():
+    app = opened()
+    labels = [x.label for x in app.get("download_button")]
+    assert {"Map: percentages (zip)", "Prior: trinary (zip)"} <= set(labels)
+
+
+@pytest.mark.parametrize("mode", list(files.MODES.values()))
+def test_what_is_downloaded_is_a_map(mode):
+    again = load_files({"map.zip": files.zipped(MAP, "map", mode)})
+    np.testing.assert_array_equal(again.values, MAP.values)
+
+
+def test_a_large_map_is_scaled_down_with_its_metres():
+    building = building_from_map(MAP, working_px=80)
+    assert building.drawing.shape == (60, 80)
+    assert building.metres_per_px == pytest.approx(0.1)
+
+
+def test_a_map_is_drawn_as_map_server_does():
+    grey = map_drawing(RosMap([[100, 0, -1, 50]], 0.05)).gray
+    assert grey.tolist() == [[0, 254, 205, 127]]
+    assert ros.UNKNOWN_BELOW == 0.196
