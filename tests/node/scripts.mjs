@@ -11,13 +11,17 @@ function listed(python, name) {
   const [, names] = readFileSync(COMPONENTS + python, "utf8").match(
     new RegExp(`^${name} = \\(([^)]*)\\)`, "m"),
   );
-  return names.match(/[\w.]+(?=")/g);
+  return [...names.matchAll(/\*(\w+)|"([\w./]+)"/g)].flatMap(([, list, one]) =>
+    list ? listed("__init__.py", list) : [one],
+  );
 }
 
 // What the scripts define, by name.
 export function load(component) {
   const shared = listed("__init__.py", "SHARED_SCRIPTS").map((name) => `shared/${name}`);
-  const own = listed(`${component}/__init__.py`, "SCRIPTS").map((name) => `${component}/${name}`);
+  const own = listed(`${component}/__init__.py`, "SCRIPTS").map((name) =>
+    name.includes("/") ? name : `${component}/${name}`,
+  );
   for (const path of [...shared, ...own]) {
     const text = readFileSync(COMPONENTS + path, "utf8");
     const script = text.replace("export default function", "globalThis.start = function");

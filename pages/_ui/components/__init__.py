@@ -8,6 +8,8 @@ from pathlib import Path
 import streamlit as st
 
 SHARED = Path(__file__).parent / "shared"
+SAVING = ("saving/png.js", "saving/figure.js", "saving/save.js")
+"""Scripts of components that save what they show."""
 SHARED_SCRIPTS = ("bytes.js", "colours.js", "dom.js", "logodds.js", "text.js")
 
 
@@ -39,9 +41,13 @@ def keep_state() -> None:
 
 
 def script_paths(folder: Path, scripts: tuple[str, ...]) -> tuple[Path, ...]:
-    """The scripts of a component in the order in which they are joined."""
+    """The scripts of a component in the order in which they are joined.
+
+    Those of another folder are named with it.
+    """
     shared = (SHARED / name for name in SHARED_SCRIPTS)
-    return (*shared, *(folder / name for name in scripts))
+    own = (SHARED.parent / one if "/" in one else folder / one for one in scripts)
+    return (*shared, *own)
 
 
 @cache
@@ -51,8 +57,11 @@ def _sources(folder: Path, scripts: tuple[str, ...]) -> dict[str, str]:
     def text(*paths: Path) -> str:
         return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
+    paths = script_paths(folder, scripts)
+    folders = dict.fromkeys((SHARED, *(path.parent for path in paths)))
+    styles = (path for one in folders for path in sorted(one.glob("*.css")))
     return {
         "html": text(folder / f"{folder.name}.html"),
-        "css": text(SHARED / "shared.css", *sorted(folder.glob("*.css"))),
-        "js": text(*script_paths(folder, scripts)),
+        "css": text(*styles),
+        "js": text(*paths),
     }

@@ -9,7 +9,7 @@ order into the single module that Streamlit expects.
 import json
 from pathlib import Path
 
-from occsim import World, lens_world
+from occsim import World, __version__, lens_world
 from occsim.sensor import (
     EDGE_EPS,
     OWN_PIXEL_EPS_PX,
@@ -18,7 +18,7 @@ from occsim.sensor import (
     SURFACE_DEPTH_PX,
 )
 from pages._ui import palette
-from pages._ui.components import component, keep_state
+from pages._ui.components import SAVING, component, keep_state
 from pages._ui.components.lens.document import (
     CELL_SIZES,
     FOV_DEG,
@@ -32,6 +32,7 @@ from pages._ui.limits import NONE, Limits
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
+    *SAVING,
     "optics.js",
     "adding.js",
     "document.js",
@@ -42,6 +43,7 @@ SCRIPTS = (
     "counting.js",
     "predictions.js",
     "controls.js",
+    "figures.js",
     "lens.js",
 )
 COMPONENT = "sensor_lens"
@@ -100,6 +102,7 @@ def lens_data(document: LensDocument, key: str, limits: Limits = NONE) -> str:
         "cellSizes": CELL_SIZES,
         "maxChips": MAX_CHIPS,
         "colours": COLOURS,
+        "software": f"occsim {__version__}",
     }
     return json.dumps(header, allow_nan=False)
 

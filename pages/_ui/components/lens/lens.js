@@ -59,6 +59,7 @@ function build(p, header) {
   for (const [name, value] of Object.entries(colours)) p.root.style.setProperty(`--colour-${name}`, value);
   buildControls(p);
   buildPredictions(p);
+  buildSaving(p);
 }
 
 // ---- to Python and to screen readers ---------------------------------------------------

@@ -13,11 +13,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from occsim import __version__
 from occsim.logodds import DECISION_EPS
 from occsim.prior import PRIOR_SCALE
 from pages._ui.choices import PriorDrawing
 from pages._ui.columns import Column
-from pages._ui.components import component, keep_state, packed
+from pages._ui.components import SAVING, component, keep_state, packed
 from pages._ui.components.player.document import (
     SPEEDS,
     PlayerDocument,
@@ -49,6 +50,7 @@ __all__ = [
 
 FOLDER = Path(__file__).parent
 SCRIPTS = (
+    *SAVING,
     "replay.js",
     "model.js",
     "scores.js",
@@ -68,6 +70,9 @@ SCRIPTS = (
     "referee.js",
     "several.js",
     "story.js",
+    "figures.js",
+    "gif.js",
+    "film.js",
     "report.js",
     "commits.js",
     "player.js",
@@ -185,6 +190,7 @@ def player_data(
         "constants": {"decisionEps": DECISION_EPS, "priorScale": PRIOR_SCALE},
         "limits": {name: _limits(name) for name in ("p_wall", "p_space")},
         "speeds": SPEEDS,
+        "software": f"occsim {__version__}",
         "colours": COLOURS,
         "texts": {
             **TEXTS,

@@ -110,12 +110,13 @@ function drawHatch(picture, grid, context) {
   const isSame = picture.hatch?.width === width && picture.hatch.height === height;
   if (!isSame) picture.hatch = offscreen(width, height);
   const box = isSame ? changed : wholeBox(grid);
-  if (box) renewHatch(picture, grid, context.getTransform(), box);
+  if (box) renewHatch(picture, grid, context, box);
   drawUnscaled(context, picture.hatch);
 }
 
 // A pattern, kept only where the mask of unseen cells is opaque; within a box of cells.
-function renewHatch({ hatch, unseen, colours }, grid, transform, { x0, y0, x1, y1 }) {
+function renewHatch({ hatch, unseen, colours }, grid, onto, { x0, y0, x1, y1 }) {
+  const transform = onto.getTransform();
   const context = hatch.getContext("2d");
   context.save();
   const at = (cells, scale) => cells * grid.cellPx * scale;
@@ -132,20 +133,20 @@ function renewHatch({ hatch, unseen, colours }, grid, transform, { x0, y0, x1, y
   drawCells(context, unseen.canvas, grid);
   context.resetTransform();
   context.globalCompositeOperation = "source-in";
-  context.fillStyle = hatchPattern(context, colours);
+  context.fillStyle = hatchPattern(context, colours, ratioOf(onto.canvas));
   context.fillRect(left, top, right - left, bottom - top);
   context.restore();
 }
 
-function hatchPattern(context, colours) {
-  const side = Math.round(HATCH_GAP * pixelRatio());
+function hatchPattern(context, colours, ratio) {
+  const side = Math.round(HATCH_GAP * ratio);
   const tile = offscreen(side, side);
   const pen = tile.getContext("2d");
-  pen.lineWidth = pixelRatio();
+  pen.lineWidth = ratio;
   pen.globalAlpha = HATCH_ALPHA;
   for (const [colour, aside] of [
     [colours.hatchDark, 0],
-    [colours.hatchLight, 1.4 * pixelRatio()],
+    [colours.hatchLight, 1.4 * ratio],
   ]) {
     pen.strokeStyle = colour;
     pen.beginPath();

@@ -21,16 +21,21 @@ function say({ root }, words) {
 }
 
 function stateWords(p) {
-  const { step, compact } = p.state;
-  if (compact) return `${stepWords(p)}: ${storyWords(p)}`;
-  const isScored = p.header.hasTruth && !isHidden(p, "scores");
-  const maps = (isScored ? p.columns : []).map(({ series }, i) => {
-    const scores = p.header.texts.scores.map(
-      ({ name, label, unit }) => `${label} ${UNITS[unit].text(series.looked[name][step])}`,
-    );
-    return `${isSeveral(p) ? `map ${LETTERS[i]}, ` : ""}looked at: ${scores.join(", ")}`;
-  });
+  if (p.state.compact) return `${stepWords(p)}: ${storyWords(p)}`;
+  const maps = p.columns.flatMap((_, i) => (isScored(p) ? [`${mapName(p, i)}${scoreWords(p, i)}`] : []));
   const pinned = p.pin === null ? [] : p.columns.map((c) => cellWords(p, c, cellHolding(c.log, ...p.pin)));
   const now = maps.length ? `${stepWords(p)}: ${maps.join("; ")}` : stepWords(p);
   return [now, ...pinned].join(". ");
+}
+
+const isScored = (p) => p.header.hasTruth && !isHidden(p, "scores");
+
+const mapName = (p, i) => (isSeveral(p) ? `map ${LETTERS[i]}, ` : "");
+
+function scoreWords({ columns, header, state }, i) {
+  const { looked } = columns[i].series;
+  const scores = header.texts.scores.map(
+    ({ name, label, unit }) => `${label} ${UNITS[unit].text(looked[name][state.step])}`,
+  );
+  return `looked at: ${scores.join(", ")}`;
 }

@@ -25,7 +25,7 @@ function drawStage(p) {
 
 function drawView(p, view) {
   const context = view.canvas.getContext("2d");
-  const scale = p.scale * pixelRatio();
+  const scale = p.scale * ratioOf(view.canvas);
   context.setTransform(scale, 0, 0, scale, 0, 0);
   PAINTERS[view.kind](p, view, context);
   drawRobot(p, context);

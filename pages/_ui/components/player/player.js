@@ -42,6 +42,7 @@ function opened(root) {
 }
 
 function close(p) {
+  p.film = null;
   pause(p);
   clearTimeout(p.commitTimer);
   p.loading++;
@@ -108,6 +109,7 @@ function build(p, header) {
   p.referee = newReferee(p, header);
   buildControls(p, header);
   buildSpeeds(p, header.speeds);
+  buildSaving(p);
   buildBar(p, header);
   buildQuestion(p, header.texts.answers);
   buildStory(p, header);

@@ -92,11 +92,13 @@ function bestOf(p) {
 }
 
 function storyWords(p) {
-  const maps = p.columns.map(({ curves }, i) => {
-    const [found, falses, missed] = curves.looked.counts.map((count) => count[p.state.step]);
-    return `${storyName(p, i)}: ${found} of ${found + missed} walls looked at found, ${falses} false`;
-  });
+  const maps = p.columns.map((_, i) => `${storyName(p, i)}: ${tallyWords(p, i)}`);
   return [tellingWords(p), ...maps].join(" ");
+}
+
+function tallyWords({ columns, state }, i) {
+  const [found, falses, missed] = columns[i].curves.looked.counts.map((count) => count[state.step]);
+  return `${found} of ${found + missed} walls looked at found, ${falses} false`;
 }
 
 // ---- the count below each map ------------------------------------------------------------

@@ -177,6 +177,8 @@ COLOURS = {
     "hatchDark": palette.HATCH_DARK,
     "hatchLight": palette.HATCH_LIGHT,
     "paper": palette.PAPER,
+    "ink": palette.ON_PAPER,
+    "line": palette.UNSEEN,
     "wallMask": palette.WALL_MASK,
     "groundTruth": palette.GROUND_TRUTH,
     "path": palette.PATH,

@@ -37,6 +37,9 @@ function obeyLimits(root, { hidden, locked }) {
 // Canvas pixels to one CSS pixel.
 const pixelRatio = () => Math.min(3, window.devicePixelRatio || 1);
 
+// A canvas that is not on the page may have a ratio of its own.
+const ratioOf = (canvas) => canvas.ratio ?? pixelRatio();
+
 function offscreen(width, height) {
   const canvas = document.createElement("canvas");
   canvas.width = Math.max(1, width);
