@@ -40,7 +40,6 @@ SCRIPTS = (
     "cell.js",
     "line.js",
     "counting.js",
-    "predictions.js",
     "controls.js",
     "lens.js",
 )

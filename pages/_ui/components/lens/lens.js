@@ -58,7 +58,6 @@ function build(p, header) {
   Object.assign(p, { header, world, constants, colours, inks: inksOf(colours), picture: { canvas, image } });
   for (const [name, value] of Object.entries(colours)) p.root.style.setProperty(`--colour-${name}`, value);
   buildControls(p);
-  buildPredictions(p);
 }
 
 // ---- to Python and to screen readers ---------------------------------------------------
@@ -103,7 +102,6 @@ function show(p) {
   showPixel(p);
   showHidden(p);
   showControls(p);
-  showPredictions(p);
   showPlaces(p);
   p.root.dataset.showMs = (performance.now() - began).toFixed(2);
 }
@@ -115,7 +113,6 @@ function showAdding(p) {
   showChips(p);
   showCounting(p);
   showControls(p);
-  showPredictions(p);
 }
 
 // Where things are, for who does not see them.
