@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages._ui import compute, home, replays, shell, state, words
+from pages._ui import compute, home, lessons, replays, shell, state, words
 from pages._ui.columns import HOME_COLUMNS, HOME_SAMPLE
 from pages._ui.components.player import map_player
 
@@ -15,6 +15,7 @@ with shell.page("app.py"):
     )
     key = state.HOME_KEY
     played = state.take_from_player(key)
+    home.keep_vote(played)
     with st.container(key="home_maps"):
         map_player(
             replays.replay_of(building, settings, HOME_COLUMNS),
@@ -27,7 +28,8 @@ with shell.page("app.py"):
     with st.container(key="home_ways"):
         path, plans = st.columns([3, 2], gap="large")
     with path:
-        home.path()
+        st.subheader("The lessons", anchor=False)
+        lessons.path()
     with plans:
         home.plans()
     st.caption(words.SOURCE)

@@ -2,12 +2,13 @@
 
 import streamlit as st
 
-from pages._ui import limits, shell, state, words
+from pages._ui import lessons, limits, shell, state, words
 from pages._ui.components.lens import lens
 
-with shell.page(state.LENS_PATH) as lesson:
-    shell.heading(lesson)
+with shell.page(state.LENS_PATH) as here:
+    shell.heading(here)
     state.take_from_lens()
     held = state.limits_of(limits.OF_LENS)
     lens(state.lens_document(), key=state.LENS_KEY, limits=held)
+    lessons.beside(state.LENS_PATH)
     st.caption(words.SOURCE)

@@ -2,9 +2,10 @@
 
 import streamlit as st
 
-from pages._ui import controls, limits, replays, shell, state, uploads, words
+from pages._ui import controls, lessons, limits, replays, shell, state, uploads, words
 from pages._ui.components.player import map_player
 
+PATH = "pages/1_Build_a_map.py"
 EQUATIONS = r"""
 A reading says of a cell (Eq. 4.22), with $q$ the share of its pixels in view that lie
 before the wall: $p_\text{free}(z_k) = 0.9$ if $q = 1$, $0.1$ if $q = 0$, else $q$, kept
@@ -56,37 +57,17 @@ def _notices() -> None:
 
 def _words() -> None:
     with st.container(key="map_words"):
-        see, predict, why = st.columns(3, gap="large")
-    with see:
-        st.markdown(
-            "**See.** The map starts from the drawing, and each reading adds what "
-            "it saw in its cone. Where a shelf, a step or a railing was taken for a "
-            "wall, the prior is wrong; show the *Errors* and watch how the readings "
-            "change it."
-        )
-    with predict:
-        st.markdown(
-            "**Predict.** Choose the *uninformative prior*, a map without a drawing: "
-            "of the walls that the robot looks at, will it find more or fewer?"
-        )
-        with st.expander("And then?"):
-            st.markdown(
-                "Fewer, on all five reference drawings as they open, in cells of 3 px. "
-                "The wall cells that it misses "
-                "lie across an edge: part of the cell is space, and the robot sees "
-                "mostly that part. Where the robot has not looked, a map without a "
-                "drawing finds no wall at all."
-            )
-    with why:
-        with st.expander("Why: the equations"):
+        lessons.beside(PATH)
+        equations, limits = st.columns(2, gap="large")
+        with equations, st.expander("The equations"):
             st.markdown(EQUATIONS)
             st.caption(words.SOURCE)
-        with st.expander("What this model leaves out"):
+        with limits, st.expander("What this model leaves out"):
             st.markdown(LIMITS)
 
 
-with shell.page("pages/1_Build_a_map.py") as lesson:
-    shell.heading(lesson)
+with shell.page(PATH) as here:
+    shell.heading(here)
     _controls()
     _notices()
     key = state.PLAYER_KEY

@@ -16,8 +16,8 @@ SHOW = (
     keep.show,
 )
 
-with shell.page(state.YOUR_BUILDING) as lesson:
-    shell.heading(lesson)
+with shell.page(state.YOUR_BUILDING) as here:
+    shell.heading(here)
     shown = state.choice(), state.can_undo(), state.can_redo()
 
     with st.container(horizontal=True, vertical_alignment="bottom"):

@@ -7,8 +7,8 @@ from pages._ui.robot_data import SECTIONS, ros, scans
 
 SHOW = dict(zip(SECTIONS, (scans.show, ros.show), strict=True))
 
-with shell.page(state.ROBOT_PATH) as lesson:
-    shell.heading(lesson)
+with shell.page(state.ROBOT_PATH) as here:
+    shell.heading(here)
     section = st.segmented_control(
         "Section",
         SECTIONS,

@@ -6,8 +6,8 @@ from pages._ui import compute, controls, shell, state
 from pages._ui.choices import Drawings, Surface
 from pages._ui.priors import marks, sweeping
 
-with shell.page("pages/5_Sweep_the_priors.py") as lesson:
-    shell.heading(lesson)
+with shell.page("pages/5_Sweep_the_priors.py") as here:
+    shell.heading(here)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)

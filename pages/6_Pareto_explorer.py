@@ -2,12 +2,14 @@
 
 import streamlit as st
 
-from pages._ui import compute, controls, shell, state
+from pages._ui import compute, controls, lessons, shell, state
 from pages._ui.choices import Exploring
 from pages._ui.priors import comparing, exploring, marks, searching
 
-with shell.page("pages/6_Pareto_explorer.py") as lesson:
-    shell.heading(lesson)
+PATH = "pages/6_Pareto_explorer.py"
+
+with shell.page(PATH) as here:
+    shell.heading(here)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)
@@ -35,3 +37,4 @@ with shell.page("pages/6_Pareto_explorer.py") as lesson:
         Exploring.ALL: comparing.all_drawings,
     }
     views[state.settings().exploring](run)
+    lessons.beside(PATH)

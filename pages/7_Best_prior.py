@@ -5,8 +5,8 @@ import streamlit as st
 from pages._ui import compute, controls, shell, state
 from pages._ui.priors import answers, guiding
 
-with shell.page("pages/7_Best_prior.py") as lesson:
-    shell.heading(lesson)
+with shell.page("pages/7_Best_prior.py") as here:
+    shell.heading(here)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         controls.drawing_choice()
         controls.slider("cell_px", width=controls.NARROW_PX)

@@ -2,11 +2,13 @@
 
 import streamlit as st
 
-from pages._ui import controls, shell
+from pages._ui import controls, lessons, shell
 from pages._ui.priors import claiming, studying
 
-with shell.page("pages/8_Study.py") as lesson:
-    shell.heading(lesson)
+PATH = "pages/8_Study.py"
+
+with shell.page(PATH) as here:
+    shell.heading(here)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         controls.select("study_rule", width=480)
         controls.select("region", width=190)
@@ -20,3 +22,4 @@ with shell.page("pages/8_Study.py") as lesson:
     studying.all_fronts(cases)
     studying.downloads(cases)
     claiming.section(studying.drawings())
+    lessons.beside(PATH)

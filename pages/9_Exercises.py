@@ -2,6 +2,6 @@
 
 from pages._ui import exercising, shell
 
-with shell.page("pages/9_Exercises.py") as lesson:
-    shell.heading(lesson)
+with shell.page("pages/9_Exercises.py") as here:
+    shell.heading(here)
     exercising.all_exercises()

@@ -1,18 +1,18 @@
 """The home page: its maps, the answer it keeps, the path of lessons and the plans."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
-from streamlit.testing.v1 import AppTest
 
 from occsim import UpdateRule, load_sample
-from pages._ui import home, state
+from pages._ui import compute, home, state, teaching
 from pages._ui.choices import PriorDrawing
 from pages._ui.columns import HOME_COLUMNS, HOME_SAMPLE, Column
 from pages._ui.components.player import PlayerDocument, encode_document
-from pages._ui.shell import LESSONS
-from tests.test_pages import BUILD, ROOT, launch
+from pages._ui.course import COURSE
+from tests.test_pages import BUILD, launch
 from tests.test_session import opened
 
 HOME = "app.py"
@@ -146,28 +146,44 @@ def test_what_the_switch_did_is_said_at_the_end_only(rule, step, is_said):
 # --- The path and the plans -----------------------------------------------------------
 
 
-def test_the_path_has_every_page_in_order_with_its_question():
-    path = [text for text in labels(launch(HOME)) if text[0].isdigit()][: len(LESSONS)]
-    for number, (text, lesson) in enumerate(zip(path, LESSONS, strict=True)):
-        assert text.startswith(f"{number}. **{lesson.label}.** {lesson.question}")
+def path_of(app):
+    """The links of the path, one a lesson."""
+    return [text for text in labels(app) if re.match(r"\d\. \*\*", text)]
+
+
+def test_the_path_has_every_lesson_in_order_with_its_question():
+    path = path_of(launch(HOME))
+    for number, (text, lesson) in enumerate(zip(path, COURSE, strict=True)):
+        assert text.startswith(f"{number}. **{lesson.title}")
+        assert said_of(text).endswith(lesson.question) == (number > 0)
         assert lesson.question.endswith("?")
 
 
-def test_pages_that_were_visited_are_marked():
+def said_of(text):
+    """A label without its mathematics."""
+    return text.replace("$l_0$", "l_0")
+
+
+def test_what_was_done_of_a_lesson_stands_beside_it():
     app = launch(HOME)
-    marked = [text for text in labels(app) if "(visited)" in text]
+    marked = [text for text in path_of(app) if "visited" in text]
     assert len(marked) == 1
-    assert "Home" in marked[0]
-    marked = [text for text in labels(reopened(app)) if "(visited)" in text]
-    assert ["Home" in marked[0], "Build a map" in marked[1]] == [True, True]
+    assert "(visited)" in marked[0]
+    app = commit(app, predicted=2, step=LAST)
+    assert "(visited, predicted)" in path_of(app)[0]
 
 
-def test_a_session_that_begins_on_another_page_marks_that_one():
-    app = AppTest.from_file(str(ROOT / HOME), default_timeout=60)
-    app.switch_page(BUILD).run()
-    assert app.session_state["visited"] == {BUILD}
+def test_the_first_vote_stays_when_another_follows():
+    app = commit(launch(HOME), predicted=2, step=LAST)
+    app = commit(app, predicted=0, step=LAST)
+    assert app.session_state["lessons"] == {0: "other"}
 
 
-def test_the_plan_of_45_minutes_is_one_and_leads_to_pages_that_exist():
-    assert sum(minutes for minutes, _, _ in home.PLAN) == 45
-    assert {page for _, page, _ in home.PLAN} <= {lesson.path for lesson in LESSONS}
+@pytest.mark.parametrize("minutes", teaching.PLANS)
+def test_a_plan_lasts_as_long_as_it_says_and_names_exercises_of_its_lessons(minutes):
+    steps = teaching.steps(minutes)
+    assert sum(step.minutes for step in steps) == minutes
+    of_lesson = {one.number: one.lesson for one in compute.exercises()}
+    for step in steps:
+        assert all(of_lesson[number] == step.lesson for number in step.exercises)
+        assert all(str(number) in step.what for number in step.exercises)

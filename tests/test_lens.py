@@ -32,8 +32,6 @@ from pages._ui.components.lens.document import (
     MAX_CHIPS,
     OPENING,
     RANGE_PX,
-    SECOND,
-    SILENT,
     LensDocument,
     decode_commit,
     link_texts,
@@ -213,8 +211,6 @@ def documents(draw):
         p_free=draw(st.integers(2, 98)) / 100,
         rule=draw(st.sampled_from(UpdateRule)),
         chips=tuple(draw(st.lists(chips, max_size=MAX_CHIPS))),
-        silent=draw(st.sampled_from(["", *SILENT])),
-        second=draw(st.sampled_from(["", *SECOND])),
     )
 
 
@@ -267,8 +263,6 @@ def test_whatever_is_committed_the_document_stays_within_bounds(commit):
         ("chips", "0.0"),
         ("chips", "60.5"),
         ("chips", "².1"),
-        ("silent", "maybe"),
-        ("second", "l" * 200),
     ],
 )
 def test_what_is_wrong_keeps_what_was_and_is_named(name, text):

@@ -5,6 +5,8 @@ cell is a square of `cell_px` pixels, cut at the right and bottom edge.
 """
 
 from dataclasses import dataclass
+from enum import Enum
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,12 +17,25 @@ from occsim.grid import Grid, cells_of
 from occsim.logodds import is_occupied
 from occsim.mapping import OccupancyMap
 from occsim.metrics import Region
+from occsim.metrics.counts import outcome_of
 
+Cell = TypeVar("Cell", bound=np.generic)
 HATCH_PERIOD_PX = 6
 """Distance between the hatching lines of unscored cells, along a row."""
 
 UNSEEN = 4
-"""Outcome of a cell that is not scored; 0 to 3 are 2 * truth + declared wall."""
+"""Outcome of a cell that is not scored; 0 to 3 are those of `Outcome`."""
+FADED = 0.15
+"""How much of its colour a cell keeps that is not among those shown."""
+
+
+class Outcome(Enum):
+    """What a map says of a cell, and what is so: 2 * truth + declared wall."""
+
+    FREE = 0
+    FALSE_WALL = 1
+    MISSED_WALL = 2
+    HIT = 3
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -75,6 +90,7 @@ def outcome_picture(
     colours: OutcomeColours,
     region: Region = Region.EXPLORED,
     zoom: int = 1,
+    shown: BoolArray | None = None,
 ) -> ByteArray:
     """Return a picture of the walls that a map finds, misses and wrongly declares.
 
@@ -90,6 +106,9 @@ def outcome_picture(
         Which cells are scored.
     zoom : int, default 1
         Pixels of the picture to one of the drawing.
+    shown : ndarray of bool, shape (R, C), optional
+        Cells that keep their colour, as from `outcome_cells`; all others fade to a
+        middle grey. By default no cell fades.
 
     Returns
     -------
@@ -104,7 +123,7 @@ def outcome_picture(
         Where it does not have the grid's shape, or the region is no `Region`.
     """
     truth = cells_of("truth", truth, occupancy_map.grid)
-    code = 2 * truth.astype(np.uint8) + is_occupied(occupancy_map.log_odds)
+    code = outcome_of(is_occupied(occupancy_map.log_odds), truth)
     scored = choice("region", region, Region).scored(occupancy_map.n_updates)
     code = np.where(scored, code, UNSEEN)
     by_code = (colours.free, colours.false_wall, colours.missed_wall, colours.hit)
@@ -115,7 +134,58 @@ def outcome_picture(
     diagonal = np.arange(height)[:, None] + np.arange(width)
     lines = diagonal % (HATCH_PERIOD_PX * zoom) < zoom
     picture[lines & (pixels == UNSEEN)] = _rgb(colours.hatch)
+    if shown is None:
+        return picture
+    shown = cells_of("shown", shown, occupancy_map.grid)
+    fades = ~_cells_to_pixels(shown, occupancy_map.grid, zoom)
+    grey = np.array(_rgb(colours.unseen), dtype=np.float64)
+    picture[fades] = np.rint(FADED * picture[fades] + (1.0 - FADED) * grey)
     return picture
+
+
+def outcome_cells(
+    occupancy_map: OccupancyMap, truth: BoolArray, outcome: Outcome, region: Region
+) -> BoolArray:
+    """Return the cells of a region that have an outcome.
+
+    Parameters
+    ----------
+    occupancy_map : OccupancyMap
+        The map.
+    truth : ndarray of bool, shape (R, C)
+        Cells that are wall in truth.
+    outcome : Outcome
+        What the map says of them, and what is so.
+    region : Region
+        Which cells are scored.
+
+    Returns
+    -------
+    ndarray of bool, shape (R, C)
+        As many are true as `occsim.score` counts.
+
+    Raises
+    ------
+    TypeError
+        Where the truth is not bool.
+    ParameterError
+        Where it does not have the grid's shape, or the outcome or the region is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, OccupancyMap, Region
+    >>> grid = Grid(height_px=1, width_px=3, cell_px=1)
+    >>> seen = OccupancyMap(grid, np.array([[-1.0, -1.0, 1.0]]), np.array([[1, 1, 0]]))
+    >>> truth = np.array([[True, False, True]])
+    >>> outcome_cells(seen, truth, Outcome.FALSE_WALL, Region.EXPLORED)
+    array([[False,  True, False]])
+    """
+    truth = cells_of("truth", truth, occupancy_map.grid)
+    wanted = choice("outcome", outcome, Outcome).value
+    scored = choice("region", region, Region).scored(occupancy_map.n_updates)
+    found = outcome_of(is_occupied(occupancy_map.log_odds), truth) == wanted
+    return np.asarray(found & scored, dtype=np.bool_)
 
 
 def change_picture(
@@ -157,7 +227,9 @@ def change_picture(
     return _cells_to_pixels(rgb, grid, zoom)
 
 
-def _cells_to_pixels(values: ByteArray, grid: Grid, zoom: int) -> ByteArray:
+def _cells_to_pixels(
+    values: npt.NDArray[Cell], grid: Grid, zoom: int
+) -> npt.NDArray[Cell]:
     _require_shape(values, grid)
     side = grid.cell_px * zoom
     wide = np.repeat(np.repeat(values, side, axis=0), side, axis=1)

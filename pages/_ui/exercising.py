@@ -28,10 +28,16 @@ RULE_WORDS = {
 """Options that are words of a check, as they are shown."""
 
 
-def panel(path: str) -> None:
+def is_here() -> bool:
+    """Whether an exercise is open on this page."""
+    exercise = state.active()
+    return exercise is not None and FOLDER_PAGES[exercise.page] == state.path()
+
+
+def panel() -> None:
     """Draw the exercise that is open, on its page."""
     exercise = state.active()
-    if exercise is None or FOLDER_PAGES[exercise.page] != path:
+    if exercise is None or not is_here():
         return
     kept.watch(exercise)
     with st.container(border=True, key="exercise"):
@@ -166,18 +172,16 @@ def _row(exercise: Exercise) -> None:
     attempt = kept.attempt_of(exercise)
     status = "solved" if attempt.is_solved else "begun" if attempt.n_checks else ""
     with st.container(horizontal=True, vertical_alignment="center"):
-        opened = st.button(
-            "Open", key=f"open_{exercise.id}", help=f"{exercise.minutes} minutes"
-        )
+        open_button(exercise, "Open", "open")
         st.markdown(
             f"**{exercise.number}. {exercise.title}** (lesson {exercise.lesson}, "
             f"{exercise.minutes} min) {status}"
         )
-    if opened:
+
+
+def open_button(exercise: Exercise, label: str, where: str) -> None:
+    """Draw a button that opens an exercise on its page."""
+    about = f"{exercise.title}, {exercise.minutes} minutes"
+    if st.button(label, key=f"{where}_{exercise.id}", help=about):
         kept.open_exercise(exercise)
         st.switch_page(FOLDER_PAGES[exercise.page])
-
-
-def progress() -> str:
-    """What was done, for the browser to keep; empty where nothing was."""
-    return kept.progress_text() if kept.attempts() else ""

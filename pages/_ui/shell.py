@@ -12,7 +12,7 @@ import streamlit as st
 from streamlit.errors import StreamlitPageNotFoundError
 
 from occsim import OccsimError
-from pages._ui import exercising, state, words
+from pages._ui import exercising, lessons, state, words
 from pages._ui.components.address import address
 from pages._ui.qr import qr_popover
 
@@ -26,88 +26,81 @@ ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
 
 @dataclass(frozen=True, slots=True)
-class Lesson:
-    """One page in the order of the lessons."""
+class Page:
+    """One page; the table below has them in the order of the navigation."""
 
     path: str
     label: str
     purpose: str
-    question: str
 
 
-LESSONS = (
-    Lesson(
+PAGES = (
+    Page(
         "app.py",
         "Home",
         "What this is, and where to begin.",
-        "Who is right, the drawing or the robot?",
     ),
-    Lesson(
+    Page(
         "pages/0_What_the_sensor_says.py",
         "What the sensor says",
         "One reading, pixel by pixel: what it says of a cell, and how readings add up.",
-        "What does one reading say of one cell?",
     ),
-    Lesson(
+    Page(
         "pages/1_Build_a_map.py",
         "Build a map",
         "A robot drives through a building and maps it, reading by reading; the map "
         "starts from the architect's drawing.",
-        "What does a robot without a drawing miss?",
     ),
-    Lesson(
+    Page(
         "pages/3_Two_maps.py",
         "Two maps, one clock",
         "The same readings, two or three maps: click a word of a header to change the "
         "drawing, the prior or the rule of one of them.",
-        "Where does a drawing help, and what if it is counted again?",
     ),
-    Lesson(
+    Page(
+        "pages/4_What_is_a_good_map.py",
+        "What is a good map?",
+        "Four counts of cells, and precision and recall as two shares of them.",
+    ),
+    Page(
         "pages/5_Sweep_the_priors.py",
         "Sweep the priors",
         "Every pair of prior values gives a map, and every map has a precision and a "
         "recall: here they are, all at once.",
-        "What is a good map: good for what?",
     ),
-    Lesson(
+    Page(
         "pages/6_Pareto_explorer.py",
         "Pareto explorer",
         "Precision and recall of a map often conflict: these are the best compromises "
         "of the two, and the map that each of them gives.",
-        "Which prior: is there a best one?",
     ),
-    Lesson(
+    Page(
         "pages/7_Best_prior.py",
         "Best prior",
         "All steps for one drawing: from its walls to the best prior map, to download.",
-        "What would you hand to the robot?",
     ),
-    Lesson(
+    Page(
         "pages/8_Study.py",
         "Study",
         "All reference drawings at the source's three cell sizes, beside what the "
         "source published.",
-        "What does agreement with a paper show?",
     ),
-    Lesson(
+    Page(
         "pages/2_Your_building.py",
         "Your building",
         "Upload a drawing: detect its walls, correct them by hand, set the ground "
         "truth, and sketch the robot's path.",
-        "Does it hold for your building?",
     ),
-    Lesson(
+    Page(
         "pages/4_Robot_data.py",
         "Robot data",
         "A robot's own log of scans as a map in metres; maps of ROS in and out.",
-        "Does it hold for a robot's own scans?",
     ),
-    Lesson(
+    Page(
         "pages/9_Exercises.py",
         "Exercises",
         "Find out for yourself: each exercise opens a page with everything set, and is "
         "judged by what you set there.",
-        "Can you show that it is so?",
     ),
 )
 
@@ -125,6 +118,13 @@ CSS = """
 [data-testid="stCaptionContainer"] { opacity: 0.8; }
 /* As high as a link while it is loaded: what is below must not move. */
 .st-key-lessons > div { height: 1.25rem; }
+.st-key-lessons { column-gap: 0.25rem; }
+/* A lesson stands above its maps: it takes as little height as it can. */
+.st-key-lesson { padding: 0.5rem 1rem; gap: 0.25rem; }
+.st-key-lesson [data-testid="stMarkdownContainer"] { margin-bottom: 0; }
+.st-key-lesson [data-testid="stMarkdownContainer"] p { font-size: 0.9375rem;
+    line-height: 1.4; margin-bottom: 0.25rem; }
+.st-key-lesson button, .st-key-lesson_ways a { min-height: 2rem; padding-block: 0; }
 /* The page one is on is the clearest item, not the dimmest. */
 .st-key-current_page a, .st-key-current_page a * {
     color: inherit; opacity: 1; font-weight: 700;
@@ -171,15 +171,15 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 
 
 @contextlib.contextmanager
-def page(path: str) -> Iterator[Lesson]:
+def page(path: str) -> Iterator[Page]:
     """Draw what every page has around its own part.
 
     The set-up, the navigation and notices come before it, the link and the reset after
     it. An error in between leaves both, and the student's work.
     """
-    lesson = next(item for item in LESSONS if item.path == path)
+    here = next(item for item in PAGES if item.path == path)
     st.set_page_config(
-        page_title=f"{lesson.label} · Occupancy grid mapping",
+        page_title=f"{here.label} · Occupancy grid mapping",
         page_icon=str(ICON),
         layout="wide",
         initial_sidebar_state="collapsed",
@@ -187,13 +187,15 @@ def page(path: str) -> Iterator[Lesson]:
     st.html(CSS)
     state.prepare(path)
     state.finish()
+    state.take_kept()
+    state.follow_link(path)
     _navigation(path)
     if state.link_notice(path):
         st.warning(state.link_notice(path))
     with _last_resort(path):
-        exercising.panel(path)
+        exercising.panel()
         told = st.container()
-        yield lesson
+        yield here
         with told:
             _tell_limits()
     _ending()
@@ -271,7 +273,7 @@ def _ending() -> None:
             state.query(),
             note=note,
             unsaved=not kept,
-            progress=exercising.progress(),
+            progress=state.progress(),
             key="address",
         )
         qr_popover(state.query())
@@ -284,7 +286,7 @@ def _navigation(path: str) -> None:
         contextlib.suppress(StreamlitPageNotFoundError),
         st.container(horizontal=True, key="lessons"),
     ):
-        for item in LESSONS:
+        for item in PAGES:
             is_current = item.path == path
             # A key of its own: a lost connection disables all links alike.
             key = "current_page" if is_current else None
@@ -292,7 +294,8 @@ def _navigation(path: str) -> None:
                 st.page_link(item.path, label=item.label, disabled=is_current)
 
 
-def heading(lesson: Lesson) -> None:
-    """Draw the title of a page and its one sentence of purpose."""
-    st.title(lesson.label, anchor=False)
-    st.caption(lesson.purpose)
+def heading(here: Page) -> None:
+    """Draw the title of a page and its one sentence of purpose, or its open lesson."""
+    if not lessons.heading():
+        st.title(here.label, anchor=False)
+        st.caption(here.purpose)

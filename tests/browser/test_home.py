@@ -121,7 +121,7 @@ def test_the_answer_is_still_there_after_another_page(page, app_url):
     )
     shown = player.evaluate("root => [root.dataset.step, root.player.playing]")
     assert shown == [str(LAST), False]
-    assert page.get_by_text("(visited)").count() == 2
+    assert page.get_by_text("(visited, predicted)").count() == 1
 
 
 def test_space_pauses_and_plays_without_a_click_before(page, app_url):

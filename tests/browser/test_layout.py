@@ -2,11 +2,11 @@
 
 import pytest
 
-from pages._ui.shell import LESSONS
+from pages._ui import shell
 
 pytestmark = pytest.mark.browser
 
-PAGES = [lesson.path.rpartition("/")[2][2:-3] for lesson in LESSONS[1:]]
+PAGES = [one.path.rpartition("/")[2][2:-3] for one in shell.PAGES[1:]]
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844)], ids=["laptop", "phone"])

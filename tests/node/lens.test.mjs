@@ -156,13 +156,6 @@ test("taking the drawing off says 0.9 after one empty reading, whatever the draw
   }
 });
 
-// From 0.18 to 0.664 to 0.947; from 0.1 over 0.5 to 0.9, where both steps are 0.4.
-test("the second of two equal readings is worth as much in l, and what it is in p", () => {
-  const words = (prior) => lens.secondWords({ state: state("prior_once", [], prior), constants: CONSTANTS });
-  assert.match(words(0.18), /move l by \+2\.20 each, but p by \+0\.484 and then by \+0\.283/);
-  assert.match(words(0.1), /p by \+0\.400 each: .*happen to be equal/);
-});
-
 test("on the line a step of p is short in the middle and long at the ends", () => {
   const steps = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8].map((p) => lens.logit(p + 0.1) - lens.logit(p));
   const lengths = steps.map((step) => step.toFixed(3));
@@ -188,8 +181,6 @@ const TEXTS = {
   prior: "0.42",
   rule: "subtract_prior",
   chips: "e_8.8_o",
-  silent: "yes",
-  second: "",
 };
 
 test("texts come back as they were read", () => {

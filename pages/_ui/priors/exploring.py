@@ -5,7 +5,7 @@ import streamlit as st
 from occsim import Prior, UpdateRule
 from occsim.prior import SOURCE_PAIR
 from occsim.priors import recommend, rectangles_at
-from pages._ui import compute, controls, palette, shell, state, words
+from pages._ui import compute, controls, lessons, palette, shell, state, words
 from pages._ui.choices import CHOICES
 from pages._ui.controls import CHART_CONFIG
 from pages._ui.priors import front_figures, front_words, fronts, maps, marks, scores
@@ -27,26 +27,31 @@ SHORT = {
 @shell.fragment
 def one_drawing(run: Run) -> None:
     """Both fronts, their pairs, the chosen pair's maps; then the ends of each front."""
-    both = scores.both_rules(run)
+    both = _shown_rules(run)
     chart, space, side = st.columns([6, 5, 3], gap="medium")
     # The maps first: after a click the user waits for them.
     with side:
         _chosen_maps(both)
     drawn = [_drawn(one) for one in both]
-    found = _as_found(run)
+    found = _as_found(run)[: len(both)]
     with chart:
         pale = " (pale: drawing as it is)" if found else ""
-        title = f"Pareto front under each rule{pale}"
+        title = f"Pareto front under {'each' if len(both) > 1 else 'this'} rule{pale}"
         _front_chart([*map(_ghost, found), *drawn], title)
     with space:
         _prior_space(both, drawn)
     _choices()
-    columns = st.columns(2, gap="large")
+    columns = st.columns(len(both), gap="large")
     for i, (one, column) in enumerate(zip(both, columns, strict=True)):
         with column:
             _of_rule(one, found[i] if found else None)
     _ends(both)
     explain(run.has_errors)
+
+
+def _shown_rules(run: Run) -> list[Run]:
+    """Both rules; before the prediction of the lesson only the one that it shows."""
+    return scores.both_rules(run)[: 1 if lessons.waits() else None]
 
 
 def _chosen_maps(both: list[Run]) -> None:
@@ -218,26 +223,14 @@ def _ends(both: list[Run]) -> None:
 
 
 def explain(has_errors: bool) -> None:
-    """What to see, to predict and why."""
-    see, tell, why = st.columns(3, gap="large")
-    with see:
-        st.markdown(
-            "**See.** Each point is a prior that no other beats in both scores under "
-            "its rule. Click one, or move the slider along a front, and watch what the "
-            "map gains and loses."
-        )
+    """What to try, and why the fronts are exact."""
+    tell, why = st.columns(2, gap="large")
     with tell:
         st.markdown(
-            f"**Predict**, then press {controls.thin_walls(has_errors)}. Which front "
-            "gets more points, and what does each point give up?"
+            f"**Try.** Press {controls.thin_walls(has_errors)} and compare how many "
+            "points each front gets. Along a front, more recall means more cells "
+            "called wall, right ones and wrong ones."
         )
-        with st.expander("And then?"):
-            st.markdown(
-                "Along a front, more recall means more cells called wall, right ones "
-                "and wrong ones. A drawing whose walls are thinner than the "
-                "building's leaves true walls among the cells of free space, and a "
-                "prior for free space cannot serve both."
-            )
     with why:
         st.markdown(
             "**Why exact?** Every cell flips at one value of its prior, so all "

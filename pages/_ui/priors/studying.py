@@ -90,8 +90,7 @@ def findings(cases: list[StudyCase]) -> None:
         st.markdown(
             "**How to read this.** The source's five drawings may not be used here. "
             "Ours are of the same kinds, so only the pattern can be compared. "
-            f"{words.maths(PRINTED)} That a pattern appears does not show that the "
-            "method is right: it comes and goes with the conditions, see Claims below."
+            f"{words.maths(PRINTED)}"
         )
 
 

@@ -170,11 +170,11 @@ def _see() -> str:
 
 
 def explain(run: Run) -> None:
-    """What to see, to predict and why, of the view that is shown."""
+    """What to see, to try and why, of the view that is shown."""
     st.markdown(f"**See.** {_see()}")
     st.markdown(
-        f"**Predict**, then press {controls.thin_walls(run.has_errors)}. Under which "
-        "rule does the area within the line change more?"
+        f"**Try.** Press {controls.thin_walls(run.has_errors)} and compare the areas "
+        "within the lines of both rules."
     )
     if state.settings().surface is Surface.EXACT:
         st.markdown(

@@ -17,12 +17,12 @@ from pages._ui.state.chosen import (
     fit_columns,
     link_notice,
     open_class,
+    path,
     prepare,
     query,
     reset_all,
     settings,
     state_texts,
-    visited,
     work_key,
 )
 from pages._ui.state.edits import (
@@ -40,6 +40,7 @@ from pages._ui.state.edits import (
     set_range_to_door,
     undo,
 )
+from pages._ui.state.exercise import progress, take_kept
 from pages._ui.state.held import (
     active,
     class_now,
@@ -50,6 +51,17 @@ from pages._ui.state.held import (
     note_hidden,
 )
 from pages._ui.state.lens import LENS_KEY, LENS_PATH, lens_document, take_from_lens
+from pages._ui.state.lesson import (
+    follow_link,
+    is_teacher,
+    keep_prediction,
+    leave_lesson,
+    lesson,
+    open_lesson,
+    prediction,
+    visit,
+)
+from pages._ui.state.lesson import rows as lessons_visited
 from pages._ui.state.opening import OWN, defaults
 from pages._ui.state.pairs import (
     choose_pair,
@@ -124,21 +136,31 @@ __all__ = [
     "edit_building",
     "finish",
     "fit_columns",
+    "follow_link",
     "forget_player",
+    "is_teacher",
+    "keep_prediction",
     "keep_search",
     "kept_search",
+    "leave_lesson",
     "lens_document",
+    "lesson",
+    "lessons_visited",
     "link_notice",
     "message",
     "nearest_pair",
     "open_log_player",
+    "open_lesson",
     "open_own",
     "open_project",
     "pair",
     "parts_held",
+    "path",
     "player_document",
+    "prediction",
     "prepare",
     "prior",
+    "progress",
     "query",
     "redo",
     "reset_all",
@@ -148,9 +170,10 @@ __all__ = [
     "settings",
     "take_from_lens",
     "take_from_player",
+    "take_kept",
     "undo",
     "value",
     "view",
-    "visited",
+    "visit",
     "work_key",
 ]

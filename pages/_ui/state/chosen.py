@@ -13,6 +13,7 @@ from pages._ui import compute
 from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.classroom.kept import CLASSES, typed
 from pages._ui.classroom.prepared import ClassError, Prepared, unpacked
+from pages._ui.course import lesson_in
 from pages._ui.settings import Settings, decode, encode, with_changes
 from pages._ui.state import opening
 from pages._ui.state.held import class_drawing, class_now, keep_settings, limits
@@ -50,7 +51,6 @@ def prepare(path: str) -> None:
     state = st.session_state
     if "settings" not in state:
         _open_link(path, st.query_params.to_dict())
-    state.visited = state.get("visited", frozenset()) | {path}
     # A component that leaves the screen loses its state.
     if state.get("path") != path:
         state.path = path
@@ -102,6 +102,8 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     if query.get("section", "") in SECTION_NUMBERS:
         state.views = {"section": SECTIONS[int(query["section"]) - 1]}
     wrong += open_lens(query)
+    if lesson_in(query.get("lesson", ""), path) is None and "lesson" in query:
+        wrong.append("lesson")
     if wrong:
         notices.append(
             f"The link gives no usable value for {', '.join(wrong)}; the defaults "
@@ -110,9 +112,9 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state.link_notice = path, " ".join(notices)
 
 
-def visited() -> frozenset[str]:
-    """The pages that this session has opened."""
-    return st.session_state.visited
+def path() -> str:
+    """The page that is open."""
+    return st.session_state.path
 
 
 def link_notice(path: str) -> str:
@@ -172,7 +174,7 @@ def query() -> dict[str, str]:
     exercise = st.session_state.get("exercise")
     open_one = {} if exercise is None else {"exercise": exercise}
     said = encode(settings(), limits().kept(base()))
-    return where | said | place | open_one | class_in_link()
+    return where | _lesson() | said | place | open_one | class_in_link()
 
 
 def state_texts() -> dict[str, str]:
@@ -181,6 +183,13 @@ def state_texts() -> dict[str, str]:
     where = {} if name == OWN else {"drawing": name}
     place = place_in_replay(building()) | lens_in_link()
     return where | encode(settings(), defaults(name)) | place
+
+
+def _lesson() -> dict[str, str]:
+    """The lesson that is open on this page."""
+    number = st.session_state.get("lesson", "")
+    is_here = lesson_in(number, st.session_state.path) is not None
+    return {"lesson": number} if is_here else {}
 
 
 def _section() -> dict[str, str]:

@@ -30,10 +30,12 @@ from pages._ui.state.chosen import (
 )
 from pages._ui.state.held import keep_settings, limits
 from pages._ui.state.lens import LensDocument, set_lens, take_from_lens
+from pages._ui.state.lesson import lessons_row, rows, take_lessons
 from pages._ui.state.replay import (
     PLAYER_KEY,
     TWO_MAPS_KEY,
     forget_player,
+    put_player,
     take_from_player,
 )
 
@@ -66,12 +68,8 @@ class Attempt:
 
 
 def attempts() -> dict[str, Attempt]:
-    """Every attempt, by the exercise's id; at first those that the browser kept."""
-    state = st.session_state
-    if not state.get("attempts"):
-        text = (state.get("address") or {}).get("kept")
-        state.attempts = attempts_in(text) if isinstance(text, str) else {}
-    return state.attempts
+    """Every attempt, by the exercise's id."""
+    return st.session_state.get("attempts", {})
 
 
 def attempt_of(exercise: Exercise) -> Attempt:
@@ -110,18 +108,9 @@ def open_exercise(exercise: Exercise) -> None:
     key = _player_of(exercise)
     last = exercise.setup.step
     n_readings = len(building().trajectory)
-    played = state.played[key]
     step = n_readings if last == "end" else int(last)
-    cell_px = state.settings.cell_px
     pin = exercise.setup.cell
-    state.played = state.played | {
-        key: replace(
-            played,
-            step=step,
-            pin_px=None if pin is None else _middle(pin, cell_px),
-            predicted=None,
-        )
-    }
+    put_player(key, step, None if pin is None else _middle(pin, state.settings.cell_px))
     keep_attempt(exercise, moved={}, seen=())
     renew_widgets()
     forget_player()
@@ -272,9 +261,25 @@ MAX_PROGRESS = 100_000
 """Most characters of a progress that is read."""
 
 
+def progress() -> str:
+    """The progress as a text; empty where nothing was done."""
+    return progress_text() if attempts() or rows() else ""
+
+
+def take_kept() -> None:
+    """Take the progress that the browser kept, once it has sent it."""
+    state = st.session_state
+    text = (state.get("address") or {}).get("kept")
+    if not isinstance(text, str) or text == state.get("kept"):
+        return
+    state.kept = text
+    state.attempts = attempts_in(text) | attempts()
+    take_lessons(_part(text, "lessons"))
+
+
 def progress_text() -> str:
-    """Return what was predicted, answered and solved, as JSON."""
-    rows = {
+    """Return what was visited, predicted, answered and solved, as JSON."""
+    exercises = {
         name: {
             "solved": one.is_solved,
             "predicted": one.first,
@@ -285,17 +290,27 @@ def progress_text() -> str:
         for name, one in attempts().items()
         if one.first is not None or one.n_checks or one.n_hints
     }
-    return json.dumps({"format": FORMAT, "exercises": rows})
+    return json.dumps(
+        {"format": FORMAT, "exercises": exercises, "lessons": lessons_row()}
+    )
 
 
 def attempts_in(text: str) -> dict[str, Attempt]:
     """Return the attempts of a progress; what cannot be read is left out."""
     try:
-        given = json.loads(text[:MAX_PROGRESS])
-        rows = given["exercises"] if given["format"] == FORMAT else {}
-        return {name: _attempt(row) for name, row in rows.items()}
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        given = _part(text, "exercises")
+        return {name: _attempt(row) for name, row in given.items()}
+    except (ValueError, TypeError, KeyError, AttributeError):
         return {}
+
+
+def _part(text: str, name: str) -> Any:
+    """One part of a progress as JSON; None where it cannot be read."""
+    try:
+        given = json.loads(text[:MAX_PROGRESS])
+        return given[name] if given["format"] == FORMAT else None
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return None
 
 
 def _attempt(row: Mapping[str, Any]) -> Attempt:

@@ -155,6 +155,13 @@ def open_log_player(identity: str, step: int, columns: tuple[Column, ...]) -> No
         state.imposed = {k: v for k, v in state.imposed.items() if k != ROBOT_KEY}
 
 
+def put_player(key: str, step: int, pin_px: tuple[float, float] | None = None) -> None:
+    """Let a player open at a step, nothing predicted."""
+    played = st.session_state.played
+    anew = replace(played[key], step=step, pin_px=pin_px, predicted=None)
+    st.session_state.played = played | {key: anew}
+
+
 def restart_home() -> None:
     """Let the home page's maps play from the start, the question not yet answered."""
     played = st.session_state.played

@@ -38,8 +38,8 @@ def address(
     has_button : bool
         Whether the button is shown.
     progress : str
-        What the browser is to keep of the exercises. Where it is empty, the browser
-        commits what it kept before as "kept", once.
+        What the browser is to keep of what was done. What it kept before, it commits
+        as "kept", once.
     key : str
         Key of the component.
     """

@@ -38,19 +38,17 @@ function replaceAddress(query) {
 
 const PROGRESS = "occsim.progress";
 
-// The exercises solved outlive a reload and the server; a browser may forbid storage.
+// What was done outlives a reload and the server; a browser may forbid storage. What it
+// kept is sent to a new session first, and comes back with what that has.
 function keepProgress(progress, send) {
   try {
-    if (progress) {
-      window.localStorage.setItem(PROGRESS, progress);
-      return;
-    }
     const kept = window.localStorage.getItem(PROGRESS);
     if (kept && !window.occsimSentProgress) send("kept", kept);
-    window.occsimSentProgress = true;
+    else if (progress) window.localStorage.setItem(PROGRESS, progress);
   } catch {
-    window.occsimSentProgress = true;
+    // Nothing is kept then.
   }
+  window.occsimSentProgress = true;
 }
 
 function heedLeaving(unsaved) {

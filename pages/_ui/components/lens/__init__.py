@@ -41,7 +41,6 @@ SCRIPTS = (
     "cell.js",
     "line.js",
     "counting.js",
-    "predictions.js",
     "controls.js",
     "figures.js",
     "lens.js",

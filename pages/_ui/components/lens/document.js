@@ -18,13 +18,11 @@ function stateOf(document) {
     prior: Number(document.prior),
     rule: document.rule,
     chips: document.chips ? document.chips.split("_") : [],
-    silent: document.silent,
-    second: document.second,
   };
 }
 
 function textsOf(state) {
-  const { rev, behind, clear, rule, silent, second } = state;
+  const { rev, behind, clear, rule } = state;
   return {
     rev,
     pose: [state.x, state.y, state.heading].join("_"),
@@ -37,8 +35,6 @@ function textsOf(state) {
     prior: state.prior.toFixed(2),
     rule,
     chips: state.chips.join("_"),
-    silent,
-    second,
   };
 }
 

@@ -21,10 +21,6 @@ MAX_CHIPS = 8
 """Readings that are added up at most: as many bars as can be read."""
 LIKE_PRIOR = "e", "o"
 """Chips without pixels: a cell read as entirely empty, as entirely object."""
-SILENT = "yes", "no"
-"""Answers to "can a look teach nothing?"."""
-SECOND = "both", "p", "l", "neither"
-"""Answers to "in which of the two is a second equal reading worth as much?"."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -54,8 +50,6 @@ class LensDocument:
     chips : tuple of str
         The readings: one of `LIKE_PRIOR`, or the numbers of empty and of object pixels,
         as ``"8.8"``.
-    silent, second : str
-        What was predicted; empty before the answer.
     """
 
     rev: int = 1
@@ -72,8 +66,6 @@ class LensDocument:
     p_free: float = 0.18
     rule: UpdateRule = UpdateRule.PRIOR_ONCE
     chips: tuple[str, ...] = ("e",)
-    silent: str = ""
-    second: str = ""
 
 
 OPENING = LensDocument()
@@ -220,14 +212,6 @@ PARTS: Mapping[
     ),
     "rule": (lambda d: d.rule.value, lambda text, _: {"rule": UpdateRule(text)}),
     "chips": (lambda d: "_".join(d.chips), _chips),
-    "silent": (
-        lambda d: d.silent,
-        lambda text, _: {"silent": text and _one_of(text, SILENT)},
-    ),
-    "second": (
-        lambda d: d.second,
-        lambda text, _: {"second": text and _one_of(text, SECOND)},
-    ),
 }
 """How each part of a document is written, and how it is read; the size of the cells
 comes before the cell."""

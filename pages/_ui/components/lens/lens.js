@@ -58,7 +58,6 @@ function build(p, header) {
   Object.assign(p, { header, world, constants, colours, inks: inksOf(colours), picture: { canvas, image } });
   for (const [name, value] of Object.entries(colours)) p.root.style.setProperty(`--colour-${name}`, value);
   buildControls(p);
-  buildPredictions(p);
   buildSaving(p);
 }
 
@@ -104,7 +103,6 @@ function show(p) {
   showPixel(p);
   showHidden(p);
   showControls(p);
-  showPredictions(p);
   showPlaces(p);
   p.root.dataset.showMs = (performance.now() - began).toFixed(2);
 }
@@ -116,7 +114,6 @@ function showAdding(p) {
   showChips(p);
   showCounting(p);
   showControls(p);
-  showPredictions(p);
 }
 
 // Where things are, for who does not see them.

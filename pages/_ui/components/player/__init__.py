@@ -124,6 +124,7 @@ def map_player(
     held: Collection[str] = (),
     fixed: Mapping[str, object] | None = None,
     examples: Sequence[tuple[str, tuple[Column, ...]]] = (),
+    asks: bool = True,
     limits: Limits = NONE,
 ) -> None:
     """Show the player.
@@ -154,12 +155,14 @@ def map_player(
         Fields of every column that the page chooses, not the player.
     examples : sequence of (str, tuple of Column)
         Settings of several maps that a button each sets.
+    asks : bool
+        Whether several maps ask, before they start, which will find more.
     limits : Limits
         What is hidden and locked; Python holds the values, the player its controls.
     """
     component(COMPONENT, FOLDER, SCRIPTS)(
         key=key,
-        data=player_data(replay, document, key, held, fixed, examples, limits),
+        data=player_data(replay, document, key, held, fixed, examples, asks, limits),
         on_committed_change=keep_state,
     )
 
@@ -171,6 +174,7 @@ def player_data(
     held: Collection[str] = (),
     fixed: Mapping[str, object] | None = None,
     examples: Sequence[tuple[str, tuple[Column, ...]]] = (),
+    asks: bool = True,
     limits: Limits = NONE,
 ) -> bytes:
     """Return what the browser gets: the header, and the parts that it does not hold."""
@@ -197,6 +201,7 @@ def player_data(
             "words": header_words(replay.drawings, fixed or {}),
             "overlays": overlay_options(has_truth=replay.has_truth),
             "presets": [_example(*example) for example in examples],
+            "answers": TEXTS["answers"] if asks else [],
         },
     }
     return packed(header, *(b"" if p.id in held else p.data for p in replay.parts))

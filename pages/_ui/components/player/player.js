@@ -99,6 +99,7 @@ async function receive(p, data) {
   if (!p.header) build(p, header);
   await holdParts(header.parts, payloads);
   if (turn !== p.loading) return; // newer data is being decoded
+  offer(p, header.texts);
   const isSame = p.columns && p.header.digest === header.digest;
   if (isSame && p.header.document.rev === header.document.rev) retheme(p);
   else take(p, header);
@@ -111,7 +112,6 @@ function build(p, header) {
   buildSpeeds(p, header.speeds);
   buildSaving(p);
   buildBar(p, header);
-  buildQuestion(p, header.texts.answers);
   buildStory(p, header);
   const { columns, ...colours } = header.colours;
   columns.forEach((value, i) => p.root.style.setProperty(`--colour-column${i}`, value));

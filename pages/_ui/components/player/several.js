@@ -1,14 +1,21 @@
 // Several maps: the bar above them, with examples, what is shown and the number of maps;
 // and the question that is asked before the robot drives.
 
-function buildBar(p, { texts }) {
-  const bar = partOf(p.root, "presets");
-  const buttons = texts.presets.map(({ label, columns }) => {
+// The examples and the answers to the question; a lesson has others.
+function offer(p, { presets, answers }) {
+  const offered = JSON.stringify([presets, answers]);
+  if (offered === p.offered) return; // a button that has the focus stays
+  p.offered = offered;
+  const buttons = presets.map(({ label, columns }) => {
     const button = element("button", { type: "button", class: "preset" }, label);
     button.addEventListener("click", () => showExample(p, columns));
     return button;
   });
-  bar.append(...buttons);
+  partOf(p.root, "presets").replaceChildren(...buttons);
+  offerAnswers(p, answers);
+}
+
+function buildBar(p, { texts }) {
   const overlay = partOf(p.root, "overlay");
   overlay.append(...texts.overlays.map(({ value, label }) => element("option", { value }, label)));
   overlay.addEventListener("change", () => choose(p, "overlay", overlay.value));
@@ -47,7 +54,7 @@ function showBar(p) {
 
 const ALIKE = 3; // the answer that no map finds more
 
-function buildQuestion(p, answers) {
+function offerAnswers(p, answers) {
   const buttons = answers.map(({ value, label }) => {
     const button = element("button", { type: "button", class: "preset", "data-answer": value }, label);
     button.addEventListener("click", () => {
@@ -58,14 +65,15 @@ function buildQuestion(p, answers) {
     });
     return button;
   });
-  partOf(p.root, "answers").append(...buttons);
+  partOf(p.root, "answers").replaceChildren(...buttons);
 }
 
 // Asked before the first reading; then the walls found so far, beside what was said.
 function showQuestion(p) {
   const { predicted, step } = p.state;
-  const isAsked = predicted === null && step === 0;
-  for (const button of partOf(p.root, "answers").children) {
+  const buttons = partOf(p.root, "answers").children;
+  const isAsked = predicted === null && step === 0 && buttons.length > 0;
+  for (const button of buttons) {
     const answer = Number(button.dataset.answer);
     button.hidden = !isAsked || (answer !== ALIKE && answer >= p.columns.length);
   }

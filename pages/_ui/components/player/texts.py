@@ -8,6 +8,7 @@ from occsim.prior import SOURCE_PAIR
 from pages._ui import palette
 from pages._ui.choices import CHOICES, Flaw, Overlay, PriorDrawing
 from pages._ui.columns import MAX_COLUMNS
+from pages._ui.course import COURSE
 from pages._ui.glossary import meaning
 
 ABOUT = {
@@ -66,12 +67,8 @@ STORY = {
     },
     "watch": "Where the robot looks, it finds out. Where it does not look, it believes "
     "the drawing.",
-    "question": "Which will be best when it has seen every room?",
-    "answers": {
-        "none": "No drawing",
-        "own": "Its own drawing",
-        "other": "The wrong drawing",
-    },
+    "question": COURSE[0].predict,
+    "answers": {name: said.capitalize() for name, said in COURSE[0].options.items()},
     "switch": "Count the drawing",
     "rules": {
         UpdateRule.PRIOR_ONCE.value: "once",
