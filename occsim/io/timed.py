@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from occsim._archives import names_in
 from occsim._files import printable, read_source
 from occsim._npz import unpacked
 from occsim._types import FloatArray
@@ -27,7 +28,7 @@ MAX_HEADER_BYTES = 1_000_000
 _ARRAYS = dict.fromkeys(
     ("times_s", "bearings_rad", "ranges_m", "max_range_m"), np.float64
 )
-_ZIP = b"PK\x03\x04"
+_ZIP, _BOM = b"PK\x03\x04", b"\xef\xbb\xbf"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,6 +122,23 @@ def load(
         )
     except OccsimError as error:
         raise RobotFileError(str(error)) from None
+
+
+def is_timed_scans(data: bytes) -> bool:
+    """Return whether a file is one of timed scans, NPZ or CSV, by its first look.
+
+    Examples
+    --------
+    >>> from occsim.io.timed import is_timed_scans
+    >>> is_timed_scans(b"time_s,-0.1,0.1"), is_timed_scans(b"0 0 0 0 0 0 0 1")
+    (True, False)
+    """
+    if not data.startswith(_ZIP):
+        return data.removeprefix(_BOM).startswith(b"time_s")
+    try:
+        return "times_s.npy" in names_in(data, what="timed scans", needed="NPZ")
+    except OccsimError:
+        return False
 
 
 def placed_scans(
@@ -228,7 +246,7 @@ def _from_npz(
 def _from_csv(
     data: bytes, name: str
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-    header, _, rest = data.removeprefix(b"\xef\xbb\xbf").partition(b"\n")
+    header, _, rest = data.removeprefix(_BOM).partition(b"\n")
     titles = header[:MAX_HEADER_BYTES].split(b",")
     if titles[0].strip() != b"time_s" or len(titles) < 2:
         raise RobotFileError(

@@ -8,6 +8,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +62,11 @@ def is_bag(data: bytes) -> bool:
     (True, False)
     """
     return data.startswith(tuple(MARKS))
+
+
+def is_readable() -> bool:
+    """Return whether `rosbags` is installed."""
+    return find_spec("rosbags") is not None
 
 
 def load(
