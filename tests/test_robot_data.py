@@ -1,11 +1,16 @@
 """The page Robot data: a log, simulated or uploaded, becomes a map."""
 
+import sys
+
 import numpy as np
 import pytest
 
+from occsim import RobotFileError
+from occsim.io.log_run import open_log
 from pages._ui.robot_data import scans
 from pages._ui.words import ordinal
 from tests.test_pages import control, file_in, launch, said, upload
+from tests.test_timed import CSV, TUM
 
 PAGE = "pages/4_Robot_data.py"
 LABEL = "Log of scans"
@@ -75,6 +80,32 @@ def test_a_map_that_would_be_too_large_is_refused_and_can_be_changed():
     app = upload(launch(PAGE), LABEL, "far.log", far, "text/plain")
     assert "allowed" in said(app.error)[0]
     assert "Simulated" in caption(app)
+
+
+def test_timed_scans_are_placed_by_their_trajectory():
+    app = upload(launch(PAGE), LABEL, "scans.csv", CSV, "text/csv")
+    assert "timed scans need a TUM trajectory: upload it first" in said(app.error)[0]
+    poses = "Trajectory (TUM), before timed scans"
+    app = upload(app, poses, "poses.txt", TUM, "text/plain")
+    app = upload(app, LABEL, "scans.csv", CSV, "text/csv")
+    assert not app.error
+    assert caption(app).startswith("scans.csv: 1 scans of 3 beams")
+
+
+def test_a_bag_is_mapped_where_rosbags_is_installed(tmp_path):
+    pytest.importorskip("rosbags", reason="the extra ros")
+    from tests.test_bags import Bag, driven
+
+    content = driven(Bag(2)).content(tmp_path, ".mcap")
+    app = upload(launch(PAGE), LABEL, "drive.mcap", content)
+    assert not app.error
+    assert caption(app).startswith("drive.mcap: 1 scans of 3 beams")
+
+
+def test_without_rosbags_a_bag_is_refused_in_a_sentence(monkeypatch):
+    monkeypatch.setitem(sys.modules, "rosbags.interfaces", None)
+    with pytest.raises(RobotFileError, match="a ROS bag needs rosbags: pip install"):
+        open_log(b"#ROSBAG V2.0\n")
 
 
 def test_one_can_go_back_to_the_simulated_log():

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from math import ceil
 from pathlib import Path
+from typing import TypedDict
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from occsim.errors import ParameterError, RobotFileError, expect, whole_number
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.imaging import Drawing, FileKind, kind_of_file
-from occsim.io import carmen
+from occsim.io import bags, carmen, timed
 from occsim.io import scans as scan_files
 from occsim.io.metric import MetricFrame
 from occsim.io.scans import MetricScans
@@ -38,7 +39,7 @@ SAMPLED = 32
 HIT_LEVEL = 110
 """Brightness of a hit in a picture of them."""
 
-NEEDED = "a log in CARMEN format, or scans as NPZ"
+NEEDED = "a log in CARMEN format, a bag of ROS, or scans as NPZ"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -66,9 +67,16 @@ class LogRun(ShortRepr):
     evidence: EvidenceLog
 
 
+class _Options(TypedDict):
+    metres_per_px: float
+    max_range_m: float | None
+    usable_range_m: float | None
+
+
 def open_log(
     source: bytes | str | Path,
     *,
+    trajectory: bytes | str | Path | None = None,
     metres_per_px: float = 0.05,
     max_range_m: float | None = None,
     usable_range_m: float | None = None,
@@ -78,8 +86,11 @@ def open_log(
     Parameters
     ----------
     source : bytes, str or Path
-        The file's content, or where it is: CARMEN, or NPZ as `occsim.io.scans.dump`
-        writes.
+        The file's content, or where it is: CARMEN, a bag of ROS, or NPZ as
+        `occsim.io.scans.dump` writes.
+    trajectory : bytes, str or Path, optional
+        A TUM file that says where the scans were taken; then the source is timed scans,
+        NPZ or CSV, as `occsim.io.timed.load` takes them.
     metres_per_px, max_range_m, usable_range_m
         As in `occsim.io.carmen.load`.
 
@@ -100,29 +111,31 @@ def open_log(
     >>> open_log(b"FLASER 3 1.0 2.0 81.83 4 5 0 4 5 0 7.5 host 7.5").scan_log.n_beams
     3
     """
+    options: _Options = {
+        "metres_per_px": metres_per_px,
+        "max_range_m": max_range_m,
+        "usable_range_m": usable_range_m,
+    }
+    if trajectory is not None:
+        return timed.load(trajectory, source, **options)
     data, name = read_source(
         source,
         what="the log",
         needed=NEEDED,
-        max_bytes=carmen.MAX_FILE_BYTES,
+        max_bytes=bags.MAX_FILE_BYTES,
         error=RobotFileError,
     )
+    if bags.is_bag(data):
+        try:
+            return bags.load(data, **options)
+        except ImportError as error:
+            raise RobotFileError(str(error)) from None
     kind = kind_of_file(data, name)
     if kind is FileKind.ZIP:
-        return scan_files.load(
-            data,
-            metres_per_px=metres_per_px,
-            max_range_m=max_range_m,
-            usable_range_m=usable_range_m,
-        )
+        return scan_files.load(data, **options)
     if kind not in (FileKind.CARMEN_LOG, FileKind.TEXT):
         raise RobotFileError(f"{name} is {kind.about}; {NEEDED} is needed")
-    return carmen.load(
-        data,
-        metres_per_px=metres_per_px,
-        max_range_m=max_range_m,
-        usable_range_m=usable_range_m,
-    )
+    return carmen.load(data, **options)
 
 
 def map_log(

@@ -22,11 +22,14 @@ class LogFile:
     name: str
     data: bytes
     is_simulated: bool = False
+    trajectory: bytes | None = None
+    """A TUM file that places timed scans."""
 
     @property
     def digest(self) -> str:
         """Identifies the content."""
-        return hashlib.sha256(self.data).hexdigest()
+        parts = self.data, self.trajectory or b""
+        return "".join(hashlib.sha256(part).hexdigest() for part in parts)
 
 
 def options(settings: Settings) -> LogOptions:
@@ -48,13 +51,15 @@ def played(log: LogFile, settings: Settings) -> PlayedLog:
     OccsimError
         Where the log is refused, or its map would be too large.
     """
-    return _played(log.digest, options(settings), log.data)
+    return _played(log.digest, options(settings), log.data, log.trajectory)
 
 
 @shared("Mapping the log")
-def _played(digest: str, given: LogOptions, _data: bytes) -> PlayedLog:
+def _played(
+    digest: str, given: LogOptions, _data: bytes, _trajectory: bytes | None
+) -> PlayedLog:
     with compute.core():
-        return WORKER.call(play_log, _data, given)
+        return WORKER.call(play_log, _data, given, _trajectory)
 
 
 def simulated(building: Building) -> LogFile:

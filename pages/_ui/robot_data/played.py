@@ -91,10 +91,13 @@ class PlayedLog:
         return fuse(self.totals, build_prior(nothing, self.grid, Prior.uninformative()))
 
 
-def play_log(data: bytes, options: LogOptions) -> PlayedLog:
+def play_log(
+    data: bytes, options: LogOptions, trajectory: bytes | None = None
+) -> PlayedLog:
     """Open a log, map it and pack it for the player."""
     opened = open_log(
         data,
+        trajectory=trajectory,
         metres_per_px=options.cell_m,
         max_range_m=options.max_range_m,
         usable_range_m=options.usable_range_m,

@@ -4,7 +4,9 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import OccsimError
+from occsim import OccsimError, RobotFileError
+from occsim.io import bags
+from occsim.io.timed import is_timed_scans
 from pages._ui import controls, logs, shell, state, uploads, words
 from pages._ui.columns import LOG_COLUMNS
 from pages._ui.components.player import map_player
@@ -12,10 +14,12 @@ from pages._ui.logs import LogFile
 from pages._ui.robot_data import downloads
 from pages._ui.robot_data.played import PlayedLog
 
-LOG, TAKEN = "robot_log", "robot_logs_taken"
+LOG, POSES, TAKEN = "robot_log", "robot_log_poses", "robot_logs_taken"
 ABOUT = (
-    "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log), or scans as "
-    "NPZ. Its poses are taken as they are."
+    "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log)"
+    + (", a bag of ROS 1 or 2 (.bag, .mcap, .db3)" if bags.is_readable() else "")
+    + ", or scans as NPZ; timed scans (CSV, NPZ) after their trajectory. Its poses are "
+    "taken as they are."
 )
 
 
@@ -65,15 +69,33 @@ def _controls() -> None:
             controls.slider("log_max_range_m")
         with st.popover("Upload a log"):
             uploads.uploader(
-                "Log of scans", f"own_log_{state.view(TAKEN, 0)}", _use_log, ABOUT
+                "Log of scans",
+                f"own_log_{state.view(TAKEN, 0)}",
+                _use_log,
+                ABOUT,
             )
             st.caption(ABOUT)
+            uploads.uploader(
+                "Trajectory (TUM), before timed scans",
+                f"own_poses_{state.view(TAKEN, 0)}",
+                _keep_trajectory,
+                "Lines of t x y z qx qy qz qw. Each scan is placed by its time.",
+            )
 
 
 def _use_log(file: Any) -> None:
-    log = LogFile(file.name, file.getvalue())
+    data, trajectory = file.getvalue(), None
+    if is_timed_scans(data):
+        trajectory = state.view(POSES, None)
+        if trajectory is None:
+            raise RobotFileError("timed scans need a TUM trajectory: upload it first")
+    log = LogFile(file.name, data, trajectory=trajectory)
     logs.played(log, state.settings())  # refused here, or not at all
     state.set_view(LOG, log)
+
+
+def _keep_trajectory(file: Any) -> None:
+    state.set_view(POSES, file.getvalue())
 
 
 def _forget() -> None:

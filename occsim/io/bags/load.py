@@ -1,0 +1,209 @@
+"""The scans of a bag, on a map of their own."""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from occsim._extras import needs_extra
+from occsim._files import printable, read_source
+from occsim._npz import unpacked
+from occsim._types import FloatArray
+from occsim.errors import OccsimError, RobotFileError, choice
+from occsim.io.bags.limits import ARRAYS, MAX_FILE_BYTES, MAX_SECONDS, PoseSource
+from occsim.io.scans import MAX_RANGES, MetricScans, checked_length, metric_scans
+
+MARKS = {b"#ROSBAG V2.0": ".bag", b"\x89MCAP0\r\n": ".mcap", b"SQLite format 3": ".db3"}
+"""How the files of bags begin, and the suffix by which `rosbags` knows them."""
+
+PROCESS = Path(__file__).with_name("process.py")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BagLog(MetricScans):
+    """The scans of a bag on a map of their own.
+
+    Parameters
+    ----------
+    scan_log, frame, width_px, usable_range_m
+        As in `MetricScans`.
+    times_s : ndarray of float64, shape (S,)
+        When each scan was taken.
+    scan_topic : str
+        The topic of the scans.
+    poses_from : str
+        What said where they were taken: a topic, or frames.
+    n_left_out : int
+        Scans before the first pose or after the last, or with other beams than most.
+    """
+
+    times_s: FloatArray
+    scan_topic: str
+    poses_from: str
+    n_left_out: int
+
+
+def is_bag(data: bytes) -> bool:
+    r"""Return whether a file begins as a bag's does.
+
+    Examples
+    --------
+    >>> from occsim.io import bags
+    >>> bags.is_bag(b"#ROSBAG V2.0\n"), bags.is_bag(b"FLASER 3")
+    (True, False)
+    """
+    return data.startswith(tuple(MARKS))
+
+
+def is_readable() -> bool:
+    """Return whether `rosbags` is installed."""
+    return find_spec("rosbags") is not None
+
+
+def load(
+    source: bytes | str | Path,
+    *,
+    scan_topic: str | None = None,
+    poses: PoseSource = PoseSource.AUTO,
+    metres_per_px: float = 0.05,
+    max_range_m: float | None = None,
+    usable_range_m: float | None = None,
+) -> BagLog:
+    """Return the scans of a ROS bag.
+
+    Parameters
+    ----------
+    source : bytes, str or Path
+        The content of a file (.bag of ROS 1, .mcap or .db3 of ROS 2), or where it is.
+    scan_topic : str, optional
+        A topic of ``sensor_msgs/LaserScan``; by default the one with the most scans.
+    poses : PoseSource, default PoseSource.AUTO
+        What says where the scans were taken. Poses are interpolated at their times.
+    metres_per_px, usable_range_m
+        As in `occsim.io.scans.metric_scans`.
+    max_range_m : float, optional
+        A reading at or beyond it is no return; by default the bag's ``range_max``.
+
+    Returns
+    -------
+    BagLog
+        A reading below the bag's ``range_min`` is invalid.
+
+    Raises
+    ------
+    ImportError
+        Where `rosbags` is not installed.
+    RobotFileError
+        Where the file is missing, damaged or too large, has no scans or no poses, or
+        takes too long or too much memory to read.
+    ParameterError
+        Where a parameter lies outside its domain.
+    """
+    wanted = choice("poses", poses, PoseSource)
+    for option, value in (
+        ("metres_per_px", metres_per_px),
+        ("max_range_m", max_range_m),
+        ("usable_range_m", usable_range_m),
+    ):
+        if value is not None:
+            checked_length(option, value)
+    with needs_extra("ros", "a ROS bag"):
+        import rosbags.interfaces  # noqa: F401
+    data, name = read_source(
+        source,
+        what="the bag",
+        needed="a bag of ROS",
+        max_bytes=MAX_FILE_BYTES,
+        error=RobotFileError,
+    )
+    facts, arrays = _extracted(data, printable(name), scan_topic, wanted.value)
+    ranges = np.asarray(arrays["ranges_m"], dtype=np.float64)
+    most = float(arrays["max_range_m"]) if max_range_m is None else float(max_range_m)
+    with np.errstate(invalid="ignore"):
+        ranges = np.where(ranges >= most, np.inf, ranges)
+    try:
+        found = metric_scans(
+            arrays["poses_m"],
+            arrays["bearings_rad"],
+            ranges,
+            most,
+            metres_per_px=metres_per_px,
+            usable_range_m=usable_range_m,
+        )
+    except OccsimError as error:
+        raise RobotFileError(f"{printable(name)}: {error}") from None
+    times = np.asarray(arrays["times_s"], dtype=np.float64)
+    return BagLog(**vars(found), times_s=times, **facts)
+
+
+def _extracted(
+    data: bytes, name: str, scan_topic: str | None, poses: str
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what a bag's own process read."""
+    with _as_file(data, name) as path:
+        request = {
+            "path": str(path),
+            "name": name,
+            "scan_topic": scan_topic,
+            "poses": poses,
+            "max_ranges": MAX_RANGES,
+        }
+        answer = _asked(json.dumps(request), name)
+    line, _, packed = answer.partition(b"\n")
+    reply = json.loads(line)
+    if "refused" in reply:
+        raise RobotFileError(reply["refused"])
+    arrays = unpacked(
+        packed, ARRAYS, what="scans", max_values=MAX_RANGES, error=RobotFileError
+    )
+    return reply, arrays
+
+
+@contextlib.contextmanager
+def _as_file(data: bytes, name: str) -> Iterator[Path]:
+    """Lend a file with a suffix that `rosbags` knows."""
+    suffix = next((s for mark, s in MARKS.items() if data.startswith(mark)), None)
+    if suffix is None:
+        raise RobotFileError(f"{name} is no bag of ROS: a .bag, .mcap or .db3 file is")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, f"bag{suffix}")
+        path.write_bytes(data)
+        yield path
+
+
+def _asked(request: str, name: str) -> bytes:
+    """Return the answer of a process that reads the bag.
+
+    In a bag, chunks can unpack to any size, and tables can be computed: only the
+    system can bound that.
+    """
+    folders = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", "-S", "-B", str(PROCESS)],
+            input=request.encode("ascii"),
+            # Packages are found on this process's path; `site` is skipped: it is slow.
+            env=os.environ | {"PYTHONPATH": folders, "OPENBLAS_NUM_THREADS": "1"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            timeout=MAX_SECONDS,
+            check=True,
+        )
+    except subprocess.TimeoutExpired:
+        raise RobotFileError(
+            f"{name} takes longer than {MAX_SECONDS:.0f} s to read, more than a bag may"
+        ) from None
+    except (subprocess.CalledProcessError, OSError):
+        raise RobotFileError(
+            f"{name} is damaged, or takes more memory to read than a bag may"
+        ) from None
+    return done.stdout
