@@ -87,7 +87,7 @@ from occsim.registration import (
     register_by_points,
     registered_walls,
 )
-from occsim.run import MappingRun, MapSettings
+from occsim.run import MappingRun, MapSettings, ScanSettings
 from occsim.samples import Sample, load_sample, prior_drawing, sample_names
 from occsim.samples.lens import lens_world
 from occsim.scan import (
@@ -149,6 +149,7 @@ __all__ = [
     "Scan",
     "ScanLog",
     "ScanNoise",
+    "ScanSettings",
     "ScoreCurves",
     "Scores",
     "Sensor",

@@ -1,5 +1,6 @@
 """Parameter classes that declare the bounds of their fields, checked in one place."""
 
+import math
 from dataclasses import field, fields
 from typing import Any, NamedTuple
 
@@ -39,7 +40,8 @@ def bounded(
     slider : Bounds
         The range that a slider offers.
     allowed : tuple of float, optional
-        Least and largest value, where more is allowed than a slider offers.
+        Least and largest value, where more is allowed than a slider offers; infinity
+        for no largest one.
     is_whole : bool, default False
         Whether the field holds a whole number.
     """
@@ -94,6 +96,10 @@ def _checked(name: str, value: object, domain: _Domain) -> float:
     if isinstance(value, bool):
         raise ParameterError(f"{name} must be a number; got {value!r}")
     number = real_number(name, value)
+    if high == math.inf and not low <= number < high:
+        raise ParameterError(
+            f"{name} must be {low:g} or more, and finite; got {number}"
+        )
     if not low <= number <= high:
         raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]; got {value!r}")
     return number

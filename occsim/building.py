@@ -154,6 +154,11 @@ class Building:
         return content.hexdigest()
 
     @property
+    def likely_metres_per_px(self) -> float:
+        """The scale; where it is unknown, the sensor's range is taken for a door."""
+        return self.metres_per_px or DOOR_WIDTH_M / self.sensor.range_px
+
+    @property
     def n_added(self) -> int:
         """Number of wall pixels that were not found but added by hand."""
         return int((self.wall_mask & ~self.walls_found).sum())

@@ -1,8 +1,20 @@
 """Build a map: a drawing, a robot, and the map that grows as it drives."""
 
+from functools import partial
+
 import streamlit as st
 
-from pages._ui import controls, lessons, limits, replays, shell, state, uploads, words
+from pages._ui import (
+    controls,
+    lessons,
+    limits,
+    replays,
+    sensing,
+    shell,
+    state,
+    uploads,
+    words,
+)
 from pages._ui.components.player import map_player
 
 PATH = "pages/1_Build_a_map.py"
@@ -22,9 +34,9 @@ its readings contain the prior; the source, as we reconstruct it, did so with th
 drawing's $l_0$. A cell is declared occupied where $p_\text{free} < 0.5$.
 """
 LIMITS = """
-Poses are known exactly, the sensor has no noise and sees a flat world: stairs are floor
-and glass is wall. The prior comes from image processing of the drawing, and contains
-its errors.
+The world is flat: stairs are floor and glass is wall. Unless *More settings*, *Sensor's
+beams and errors* says otherwise, poses are known exactly and the sensor has no noise.
+The prior comes from image processing of the drawing, and contains its errors.
 """
 
 
@@ -35,7 +47,8 @@ def _controls() -> None:
             controls.slider(name, width=controls.NARROW_PX)
         controls.drawing_errors()
         controls.more(
-            *("presets", "behind_hit", "clear_no_hit", "wall_share", "truth_share")
+            *("presets", "behind_hit", "clear_no_hit", "wall_share", "truth_share"),
+            also=partial(sensing.sensor_errors, st.expander),
         )
         if not state.limits().drawing:
             with st.popover("Upload"):

@@ -3,7 +3,16 @@
 import streamlit as st
 
 from occsim import OccsimError
-from pages._ui import controls, lessons, limits, replays, shell, state, uploads
+from pages._ui import (
+    controls,
+    lessons,
+    limits,
+    replays,
+    sensing,
+    shell,
+    state,
+    uploads,
+)
 from pages._ui.components.player import Replay, map_player
 from pages._ui.examples import examples
 from pages._ui.settings import Settings
@@ -16,6 +25,7 @@ def _controls() -> None:
         controls.drawing_choice()
         for name in ("range_px", "fov_deg"):
             controls.slider(name, width=controls.NARROW_PX)
+        sensing.sensor_errors(st.popover)
 
 
 def _replay() -> Replay:

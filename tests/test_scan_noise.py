@@ -200,7 +200,7 @@ def test_one_kind_of_error_does_not_shift_what_another_draws():
     ("values", "sentence"),
     [
         ({"metres_per_px": 0}, "metres_per_px must be above 0"),
-        ({"metres_per_px": np.inf}, "metres_per_px must be 0 or more, and finite"),
+        ({"metres_per_px": np.inf}, "metres_per_px must be above 0 and finite"),
         ({"sigma_0_m": -0.1}, "sigma_0_m must be 0 or more"),
         ({"alpha_1": np.nan}, "alpha_1 must be 0 or more"),
         ({"glass_share": 1.2}, r"glass_share must lie in \[0, 1\]; got 1.2"),

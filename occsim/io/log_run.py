@@ -9,7 +9,7 @@ import numpy as np
 
 from occsim._files import read_source
 from occsim._types import ShortRepr
-from occsim.building import DOOR_WIDTH_M, Building
+from occsim.building import Building
 from occsim.errors import ParameterError, RobotFileError, expect, whole_number
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
@@ -225,8 +225,7 @@ def tour_log(building: Building, range_finder: RangeFinder, seed: int) -> bytes:
     Parameters
     ----------
     building : Building
-        Its world, its trajectory and its scale; where the scale is unknown, the
-        sensor's range is taken for a door of `DOOR_WIDTH_M`.
+        Its world, its trajectory and its likely scale.
     range_finder : RangeFinder
         What the robot carries, with its errors.
     seed : int
@@ -237,7 +236,7 @@ def tour_log(building: Building, range_finder: RangeFinder, seed: int) -> bytes:
     bytes
         An NPZ file as `occsim.io.scans.dump` writes; the poses are exact.
     """
-    scale = building.metres_per_px or DOOR_WIDTH_M / building.sensor.range_px
+    scale = building.likely_metres_per_px
     scan_log = simulate_scans(
         building.world,
         building.trajectory,

@@ -1,6 +1,6 @@
 """A mapping run: a building under some settings, and all results."""
 
 from occsim.run.run import MappingRun
-from occsim.run.settings import MapSettings
+from occsim.run.settings import MapSettings, ScanSettings
 
-__all__ = ["MapSettings", "MappingRun"]
+__all__ = ["MapSettings", "MappingRun", "ScanSettings"]

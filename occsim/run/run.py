@@ -8,6 +8,7 @@ those are arguments.
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray
@@ -40,6 +41,7 @@ from occsim.priors import (
     sweep_surface,
 )
 from occsim.run.settings import MapSettings
+from occsim.scan import ScanLog, evidence_from_scans, simulate_scans
 from occsim.world import truth_cells, wall_cells
 
 
@@ -105,6 +107,7 @@ class MappingRun:
             return self  # and with it all that was computed
         other = replace(self, log=self.evidence, prior_mask=mask)
         vars(other)["truth_cells"] = self.truth_cells
+        vars(other)["scan_log"] = self.scan_log
         return other
 
     @cached_property
@@ -113,16 +116,31 @@ class MappingRun:
         return self.building.world.grid(self.settings.cell_px)
 
     @cached_property
+    def scan_log(self) -> ScanLog | None:
+        """The scans behind the readings; None where these are exact."""
+        building, scan = self.building, self.settings.scan
+        if scan is None:
+            return None
+        scale, noise = building.likely_metres_per_px, scan.noise
+        return simulate_scans(
+            building.world,
+            building.trajectory,
+            self.settings.sensor,
+            scan.n_beams,
+            noise and replace(noise, metres_per_px=scale),
+            np.random.default_rng(scan.seed),
+        )
+
+    @cached_property
     def evidence(self) -> EvidenceLog:
         """The readings, independent of any prior."""
         if self.log is not None:
             return self.log
-        return collect_evidence(
-            self.building.world,
-            self.building.trajectory,
-            self.settings.sensor,
-            self.grid,
-        )
+        sensor, grid = self.settings.sensor, self.grid
+        if self.scan_log is not None:
+            return evidence_from_scans(self.scan_log, sensor, grid)
+        world, trajectory = self.building.world, self.building.trajectory
+        return collect_evidence(world, trajectory, sensor, grid)
 
     @cached_property
     def wall_cells(self) -> BoolArray:

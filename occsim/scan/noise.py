@@ -1,9 +1,10 @@
 """What range finders and odometry get wrong."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
+from occsim._bounds import Bounds, bounded, check_bounds, slider_of
 from occsim._types import FloatArray
 from occsim.errors import ParameterError, real_number
 from occsim.geometry import wrap_angle
@@ -15,7 +16,9 @@ PANE_M = 1.0
 STANDING_M = 1e-9
 """A step shorter than this is a turn on the spot: it has no direction."""
 
-_SHARES = ("dropout_share", "short_share", "glass_share")
+_ANY = (0.0, np.inf)
+_SHARE = Bounds(0.0, 0.5, 0.01), (0.0, 1.0)
+_DRIFT = Bounds(0.0, 0.1, 0.001), _ANY
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -63,37 +66,44 @@ class ScanNoise:
     """
 
     metres_per_px: float
-    sigma_0_m: float = 0.0
-    sigma_2_per_m: float = 0.0
-    sigma_from_m: float = 0.0
-    dropout_share: float = 0.0
-    short_share: float = 0.0
-    glass_share: float = 0.0
-    position_sigma_m: float = 0.0
-    heading_sigma_rad: float = 0.0
-    alpha_1: float = 0.0
-    alpha_2: float = 0.0
-    alpha_3: float = 0.0
-    alpha_4: float = 0.0
+    sigma_0_m: float = bounded(0.0, Bounds(0.0, 0.3, 0.005), _ANY)
+    sigma_2_per_m: float = bounded(0.0, Bounds(0.0, 0.02, 0.0001), _ANY)
+    sigma_from_m: float = bounded(0.0, Bounds(0.0, 10.0, 0.1), _ANY)
+    dropout_share: float = bounded(0.0, *_SHARE)
+    short_share: float = bounded(0.0, *_SHARE)
+    glass_share: float = bounded(0.0, Bounds(0.0, 1.0, 0.05))
+    position_sigma_m: float = bounded(0.0, Bounds(0.0, 0.3, 0.01), _ANY)
+    heading_sigma_rad: float = bounded(0.0, Bounds(0.0, np.pi / 18, np.pi / 360), _ANY)
+    alpha_1: float = bounded(0.0, *_DRIFT)
+    alpha_2: float = bounded(0.0, *_DRIFT)
+    alpha_3: float = bounded(0.0, *_DRIFT)
+    alpha_4: float = bounded(0.0, *_DRIFT)
 
     def __post_init__(self) -> None:
-        for name in (field.name for field in fields(self)):
-            value = real_number(name, getattr(self, name))
-            if not 0.0 <= value < np.inf:
-                raise ParameterError(
-                    f"{name} must be 0 or more, and finite; got {value}"
-                )
-            if name in _SHARES and value > 1.0:
-                raise ParameterError(f"{name} must lie in [0, 1]; got {value}")
-            object.__setattr__(self, name, value)
-        if self.metres_per_px == 0.0:
-            raise ParameterError("metres_per_px must be above 0; got 0.0")
+        scale = real_number("metres_per_px", self.metres_per_px)
+        if not 0.0 < scale < np.inf:
+            raise ParameterError(
+                f"metres_per_px must be above 0 and finite; got {scale}"
+            )
+        object.__setattr__(self, "metres_per_px", scale)
+        check_bounds(self)
         together = self.dropout_share + self.short_share
         if together > 1.0:
             raise ParameterError(
                 f"dropout_share and short_share must not exceed 1 together; got "
                 f"{together:g}"
             )
+
+    @classmethod
+    def bounds(cls, name: str) -> Bounds:
+        """Return the range that a slider offers for an error; more is allowed.
+
+        Raises
+        ------
+        ParameterError
+            Where there is no error of that name.
+        """
+        return slider_of(cls, name, "error of a scan")
 
     def sigma_px(self, ranges_px: FloatArray | float) -> FloatArray:
         """Return the standard deviation of ranges, px, of the same shape."""

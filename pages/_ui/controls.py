@@ -1,6 +1,7 @@
 """Widgets tied to settings: one declared table gives bounds, words and units."""
 
 import functools
+import math
 from collections.abc import Callable
 from enum import Enum
 from typing import Any, Literal
@@ -52,10 +53,16 @@ def slider(name: str, width: int | Literal["stretch"] = "stretch") -> None:
         number(setting.low),
         number(setting.high),
         step=number(setting.step),
+        format=None if whole else f"%.{_decimals(setting.step)}f",
         help=words.maths(setting.help),
         width=width,
         **state.bind(name),
     )
+
+
+def _decimals(step: float) -> int:
+    """How many show every step of a slider; two at least."""
+    return max(2, -math.floor(math.log10(step)))
 
 
 def _unit(name: str) -> str:
@@ -133,8 +140,11 @@ def number(name: str, width: int | Literal["stretch"] = "stretch") -> None:
     )
 
 
-def more(*names: str) -> None:
-    """Draw the settings that few move, behind a button; without any, not even that."""
+def more(*names: str, also: Callable[[], None] | None = None) -> None:
+    """Draw the settings that few move, behind a button; without any, not even that.
+
+    `also` draws more of them below.
+    """
     if not [name for name in names if shown(name)]:
         return
     with st.popover("More settings"):
@@ -143,6 +153,8 @@ def more(*names: str) -> None:
                 presets()
             else:
                 _kind(getattr(state.settings(), name))(name)
+        if also is not None:
+            also()
 
 
 def _kind(value: object) -> Callable[[str], None]:

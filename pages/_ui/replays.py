@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from occsim import MapSettings, Sensor
 from occsim.building import Building
 from occsim.io.replay import pack_log, pack_scene, pack_walls
+from occsim.io.replay_beams import pack_beams
 from pages._ui import compute
 from pages._ui.columns import FLAWS, Column
 from pages._ui.components.player import Part, Replay
@@ -42,6 +43,9 @@ def _replay(
             Part("log", f"{behind} {one.cell_px}", log),
             Part("walls", f"{drawing} {one.flaw.value} {one.cell_px}", walls),
         ]
+    beams = _beams(building.digest, settings.mapping, building)
+    if beams is not None:
+        parts.append(Part("beams", "", beams))
     # All that the names of the parts do not say.
     rest = building.digest, settings.mapping_of(Column())
     drawings = tuple(compute.prior_drawings(building))
@@ -66,6 +70,17 @@ def _log(digest: str, settings: MapSettings, _building: Building) -> bytes:
         return pack_log(
             run.evidence, truth=run.truth_cells, trajectory=run.building.trajectory
         )
+
+
+@shared()
+def _beams(digest: str, settings: MapSettings, _building: Building) -> bytes | None:
+    """The beams of the readings; None where these are exact."""
+    scan_log = compute.mapped(_building, settings).scan_log
+    if scan_log is None:
+        return None
+    with compute.core():
+        # They are measured at the true poses, at which the robot is drawn.
+        return pack_beams(scan_log, settings.sensor)
 
 
 @shared()

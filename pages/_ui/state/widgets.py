@@ -6,8 +6,15 @@ from typing import Any
 
 import streamlit as st
 
-from pages._ui import presets
-from pages._ui.state.chosen import change, choice, choose, settings
+from pages._ui import finders, presets
+from pages._ui.state.chosen import (
+    building,
+    change,
+    choice,
+    choose,
+    defaults,
+    settings,
+)
 from pages._ui.state.edits import attempt, edit
 from pages._ui.state.held import limits
 from pages._ui.state.pairs import choose_pair
@@ -67,6 +74,22 @@ def _take_preset(key: str) -> None:
     preset = st.session_state.get(key)
     if key == renewed("control_preset") and preset is not None:
         attempt(lambda: change(**presets.PRESETS[preset]))
+
+
+def bind_finder() -> dict[str, Any]:
+    """Return ``key`` and ``on_change`` that tie a widget to the range finder in use."""
+    key = renewed("control_finder")
+    scale = building().likely_metres_per_px
+    st.session_state[key] = finders.current(settings(), defaults(choice()), scale)
+    return {"key": key, "on_change": _take_finder, "args": (key,)}
+
+
+def _take_finder(key: str) -> None:
+    name = st.session_state.get(key)
+    if key == renewed("control_finder") and name is not None:
+        scale = building().likely_metres_per_px
+        wanted = finders.changes(name, defaults(choice()), scale)
+        attempt(lambda: change(**wanted))
 
 
 def value(key: str) -> Any:

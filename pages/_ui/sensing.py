@@ -1,0 +1,78 @@
+"""The group in which the sensor gets beams and errors."""
+
+from collections.abc import Callable
+from typing import Any
+
+import streamlit as st
+
+from occsim.scan import RANGE_FINDERS
+from pages._ui import controls, finders, state
+from pages._ui.settings import Settings
+
+RANGES = (
+    "beams",
+    "sigma_0_m",
+    "sigma_2_per_m",
+    "sigma_from_m",
+    "dropout_share",
+    "short_share",
+    "glass_share",
+)
+POSES = ("position_sigma_m", "heading_sigma_deg", "odometry_drift", "noise_seed")
+FINDER = "range_finder"
+
+
+def sensor_errors(box: Callable[[str], Any]) -> None:
+    """Draw the group in a box whose label says whether readings are exact."""
+    if not [name for name in (*RANGES, *POSES) if controls.shown(name)]:
+        return
+    settings = state.settings()
+    is_on = settings.scan is not None
+    with box(f"Sensor's beams and errors{': on' if is_on else ''}"):
+        st.caption(
+            "By default every pixel in view is read, without error. Here the sensor "
+            "measures along beams, as a robot's does, and errs. The path is drawn "
+            "where the robot is; readings enter the map where it believes to be."
+        )
+        left, right = st.columns(2, gap="medium")
+        with left:
+            _finder(settings)
+            for name in RANGES:
+                controls.slider(name)
+        with right:
+            for name in POSES[:-1]:
+                controls.slider(name)
+            if settings.noise is not None:
+                controls.number("noise_seed")
+            st.button(
+                "Exact readings",
+                on_click=state.change,
+                kwargs={name: getattr(Settings(), name) for name in finders.OF_ERRORS},
+                disabled=not is_on,
+            )
+            if settings.noise is not None and not settings.beams:
+                st.caption(
+                    f"With errors the sensor takes {settings.dense_beams} beams: "
+                    "neighbours are at most a pixel apart at full range."
+                )
+
+
+def _finder(settings: Settings) -> None:
+    """Draw the choice of a range finder, which sets range, view, beams and noise."""
+    held = state.limits().held
+    st.selectbox(
+        "Range finder",
+        finders.NAMES,
+        index=None,
+        format_func=finders.title,
+        placeholder="As set below",
+        help="Sets range, field of view, beams and range noise to the figures of a "
+        "maker's sheet, and says nothing of what lies behind a hit.",
+        disabled=bool(held.intersection((*finders.OF_SENSOR, *finders.OF_ERRORS))),
+        **state.bind_finder(),
+    )
+    scale = state.building().likely_metres_per_px
+    name = finders.current(settings, state.defaults(state.choice()), scale)
+    if name in RANGE_FINDERS:
+        note = finders.reach_note(name, scale)
+        st.caption(f"{RANGE_FINDERS[name].source}. {note}")
