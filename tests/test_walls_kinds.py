@@ -314,6 +314,25 @@ def framed(px: int) -> Pair:
     return black_on(wall | boxes(wall.shape, *ring(12, 12, 588, 388, px))), wall
 
 
+def headed(upright: bool) -> Pair:
+    """A house with a heading whose strokes are as thick as its walls."""
+    wall = base()
+    sheet = black_on(wall)
+    font = cv2.FONT_HERSHEY_SIMPLEX
+    if upright:
+        sheet = np.ascontiguousarray(np.rot90(sheet))
+        wall = np.ascontiguousarray(np.rot90(wall))
+    cv2.putText(sheet, "FIRST FLOOR 12", (20, 45), font, 1.3, (0, 0, 0), 8)
+    return (np.rot90(sheet, -1), np.rot90(wall, -1)) if upright else (sheet, wall)
+
+
+def in_a_large_frame() -> Pair:
+    """A small house on a large sheet, whose frame is more ink than the house."""
+    wall = np.zeros((1400, 1600), bool)
+    wall[500:900, 500:1100] = base(6)
+    return black_on(wall | boxes(wall.shape, *ring(12, 12, 1588, 1388, 6))), wall
+
+
 KINDS: dict[str, Callable[[], Pair]] = {
     "two rooms filled orange": lambda: filled_rooms((255, 200, 60)),
     "two rooms filled cream": lambda: filled_rooms((248, 226, 165)),
@@ -333,6 +352,9 @@ KINDS: dict[str, Callable[[], Pair]] = {
     "mostly grey sheet": half_grey,
     "frame as thick as walls": lambda: framed(8),
     "thinner frame": lambda: framed(5),
+    "small house in a large frame": in_a_large_frame,
+    "bold heading": lambda: headed(False),
+    "bold heading along a side": lambda: headed(True),
     "house and wing": lambda: wing(False),
     "wing with windows": lambda: wing(True),
     "joined by windows": joined_by_windows,
@@ -431,6 +453,13 @@ def test_dropped_pieces_are_doubtful():
 def test_a_house_without_doors_is_no_frame():
     """It reaches to the borders, but holds less wall than it is itself."""
     wall = boxes((400, 600), *ring(12, 12, 588, 388, 8), (250, 150, 350, 158))
+    found = detect_walls(Drawing(rgb=black_on(wall))).mask
+    assert compare_masks(found, wall).recall >= 0.99
+
+
+def test_a_row_of_piers_is_no_word():
+    piers = [(80 + 40 * k, 20, 100 + 40 * k, 50) for k in range(10)]
+    wall = base() | boxes((400, 600), *piers)
     found = detect_walls(Drawing(rgb=black_on(wall))).mask
     assert compare_masks(found, wall).recall >= 0.99
 

@@ -12,7 +12,7 @@ from occsim.walls.doors import Door, doorways_of, find_doors, leaves
 from occsim.walls.groups import (
     FULL,
     doorways,
-    without_frame,
+    frame_of,
     without_short,
     without_strays,
 )
@@ -22,6 +22,7 @@ from occsim.walls.raster import as_bytes, box, components, dilated, opened
 from occsim.walls.result import Certainty, Stage, WallDetection
 from occsim.walls.sheet import Sheet, find_ink, first_scale, scaled, sheet_of
 from occsim.walls.strokes import Measures, measure
+from occsim.walls.text import lettering
 
 LONG_STROKE = 3.0
 """Length, in usual walls, from which a thin stroke may be a partition."""
@@ -89,9 +90,7 @@ def detect_walls(
     ink = _ink(find_ink(sheet.dark, params.ink_level), sheet.scale, params)
     hollow = _hollow(sheet.dark, ink)
     walls = ink.solid | hollow
-    found = without_frame(walls)
-    if ink.m.gaps:
-        found = without_strays(found, ink.solid, ink.m)
+    found = without_strays(walls, ink.solid, ink.m) if ink.m.gaps else walls
     if params.min_piece_px:
         found = without_short(found, params.min_piece_px * sheet.scale)
     certainty, shaky = _certainty(ink, walls, found, sheet.scale)
@@ -127,14 +126,16 @@ def _ink(every: ByteArray, scale: float, params: WallParams) -> _Ink:
     """Take doors out of the ink, and find the solid walls in the rest."""
     if 2 * np.count_nonzero(every) > every.size:  # a photograph or an even sheet
         every = np.zeros_like(every)
+    every = every & ~frame_of(every)
+    written = lettering(every)
     m = _measured(every, scale, params)
-    solid = _solid(every, m)
+    solid = _solid(every, m) & ~written
     doors = find_doors(every, every & ~dilated(solid, box(3)), m, params.door_fit)
     leaf = leaves(every, doors, m)
     rest = every & ~leaf
     if leaf.any():
         m = _measured(rest, scale, params)
-        solid = _solid(rest, m)
+        solid = _solid(rest, m) & ~written
     return _Ink(every, rest, doors, solid, m)
 
 

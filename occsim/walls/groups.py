@@ -11,6 +11,13 @@ from occsim.walls.strokes import DOOR, PART, Measures, column_runs
 FRAME_MARGIN = 0.06
 """Farthest that a sheet's frame is from its borders, share of the longer side."""
 
+CLEAR = 0.02
+"""Width of the paper inside a frame, where the other face of a wall would be, share of
+the sheet's longer side."""
+
+ROOMS = 0.05
+"""Least room of a plan in its frame that is closed on all sides, of its own."""
+
 FULL = 0.9
 """Share of the box around it that a column fills, and a letter does not."""
 
@@ -33,28 +40,41 @@ def without_strays(walls: ByteArray, solid: ByteArray, m: Measures) -> ByteArray
     return walls & groups.chosen(kept)
 
 
-def without_frame(walls: ByteArray) -> ByteArray:
-    """Drop the frame of a sheet: a plain closed rectangle along all of its borders.
+def frame_of(ink: ByteArray) -> ByteArray:
+    """Return the frame of a sheet: a plain closed rectangle along all of its borders.
 
-    A house has doors and partitions; what has neither, and holds more walls than it
-    is itself, is drawn around the plan.
+    A house has doors and partitions; what has neither, and stands around more ink than
+    it is itself or around closed rooms, is drawn around the plan.
     """
-    groups = components(walls)
+    groups = components(ink)
     k = int(np.argmax(groups.width * groups.height))
     left, top, width, height = (
         int(side[k]) for side in (groups.left, groups.top, groups.width, groups.height)
     )
-    rows, cols = walls.shape
+    rows, cols = ink.shape
+    none = np.zeros_like(ink)
     margin = max(left, top, cols - left - width, rows - top - height)
-    if margin > FRAME_MARGIN * max(walls.shape) or 2 * groups.area[k] > walls.sum():
-        return walls
+    if not groups.area[k] or margin > FRAME_MARGIN * max(ink.shape):
+        return none
     frame = groups.labels[top : top + height, left : left + width] == k
     px = -(-int(groups.area[k]) // (width + height))  # twice as thick as it is drawn
+    inside = slice(px, -px)
     sides = frame[:px], frame[-px:], frame[:, :px].T, frame[:, -px:].T
-    is_plain = not frame[px:-px, px:-px].any()
-    if is_plain and all(side.any(axis=0).all() for side in sides):
-        return np.asarray(walls & (groups.labels != k), dtype=np.uint8)
-    return walls
+    is_plain = not frame[inside, inside].any()
+    if not is_plain or not all(side.any(axis=0).all() for side in sides):
+        return none
+    plan = np.ascontiguousarray(ink[top : top + height, left : left + width])
+    plan = np.ascontiguousarray(plan[inside, inside])
+    clear = max(round(CLEAR * max(ink.shape)), 1)
+    beside = plan[:clear], plan[-clear:], plan[:, :clear].T, plan[:, -clear:].T
+    faced = [side.any(axis=0) for side in beside]
+    if np.concatenate(faced).mean() > PART:
+        return none
+    paper = components(plan ^ np.uint8(1), connectivity=4)
+    rooms = paper.area.sum() - paper.area.max()
+    if 2 * groups.area[k] > ink.sum() and rooms < ROOMS * frame.size:
+        return none
+    return np.asarray(groups.labels == k, dtype=np.uint8)
 
 
 def without_short(walls: ByteArray, shortest_px: float) -> ByteArray:

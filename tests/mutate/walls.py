@@ -6,6 +6,20 @@ TESTS = ("tests/test_walls_kinds.py", "tests/test_walls.py")
 
 WALLS: tuple[Mutation, ...] = (
     Mutation(
+        "occsim/walls/text.py",
+        "((size >= WORD) & (2 * piers < size))",
+        "(size >= WORD)",
+        TESTS,
+        "a row of piers is no word",
+    ),
+    Mutation(
+        "occsim/walls/groups.py",
+        "np.concatenate(faced).mean() > PART",
+        "np.concatenate(faced).mean() > 2",
+        TESTS,
+        "the outer face of a hollow wall is no frame",
+    ),
+    Mutation(
         "occsim/walls/detect.py",
         "if 2 * np.count_nonzero(every) > every.size:",
         "if np.count_nonzero(every) > every.size:",
