@@ -3,7 +3,7 @@
 A robot with a range sensor drives through a building at known poses. The building's
 architectural drawing, if known, is the map's prior. This library computes what the
 sensor says (once, free of any prior), the map that any prior then gives, how good the
-map is, and which priors are best.
+map is, and which priors are best. The readings are simulated, or a robot's own scans.
 """
 
 from occsim._version import __version__ as __version__

@@ -208,6 +208,16 @@ def scored_cells(
 def coverage(occupancy_map: OccupancyMap) -> float:
     """Return the share of cells that at least one reading updated.
 
+    Parameters
+    ----------
+    occupancy_map : OccupancyMap
+        The map.
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
     Examples
     --------
     >>> from occsim import MappingRun, MapSettings, load_sample

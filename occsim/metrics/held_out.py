@@ -37,6 +37,15 @@ class HeldOut(ShortRepr):
         The same for each block; NaN where it says nothing clearly.
     cells_by_fold : ndarray of int64, shape (F,)
         Cells of each block that are predicted.
+
+    Examples
+    --------
+    >>> from occsim import MappingRun, MapSettings, Prior, held_out_bits, load_sample
+    >>> sample = load_sample("d")
+    >>> run = MappingRun(sample, MapSettings(cell_px=10, sensor=sample.sensor))
+    >>> held = held_out_bits(run.evidence, run.prior_map(Prior()), n_folds=4)
+    >>> held.bits_by_fold.shape, held.cells_by_fold.shape
+    ((4,), (4,))
     """
 
     bits: float

@@ -26,6 +26,12 @@ class Agreement:
         Drawn wall cells that a reading updated.
     n_found : int
         Those of them that the readings alone declare occupied.
+
+    Examples
+    --------
+    >>> from occsim import Agreement
+    >>> Agreement(bits=120.0, n_walls_seen=40, n_found=30).share_found
+    0.75
     """
 
     bits: float

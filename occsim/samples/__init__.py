@@ -33,7 +33,14 @@ FOLDER = Path(__file__).resolve().parent
 
 
 Sample = Building
-"""A reference drawing is a building like any other, with a ground truth."""
+"""A reference drawing is a building like any other, with a ground truth.
+
+Examples
+--------
+>>> from occsim import Sample, load_sample
+>>> isinstance(load_sample("a"), Sample)
+True
+"""
 
 
 @lru_cache(maxsize=1)

@@ -59,7 +59,7 @@ def detect_walls(
     drawing: Drawing,
     params: WallParams = WallParams(),  # noqa: B008 - frozen
 ) -> WallDetection:
-    """Find the walls in a drawing by image processing.
+    """Return the walls that image processing finds in a drawing.
 
     How thick lines and walls are is read from the drawing; every other length follows
     from that. Solid walls are what an opening leaves; hollow and hatched ones are
