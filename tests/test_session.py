@@ -24,6 +24,7 @@ from pages._ui.qr import qr_svg
 from pages._ui.settings import Settings
 from pages._ui.shared import Store, shared, size_of
 from pages._ui.state import chosen, edits, replay, works
+from pages._ui.state.packed import Packed
 from pages._ui.state.works import Works
 from tests.test_pages import BUILD, ROOT, control, launch, png, rooms, said, upload
 
@@ -429,10 +430,19 @@ def test_a_building_that_is_too_large_is_not_kept():
 
 def test_the_store_forgets_the_oldest_when_it_is_full():
     mine = replace(load_sample("d"))
-    store = Works(max_bytes=int(2.5 * size_of([mine])))
+    store = Works(max_bytes=int(2.5 * len(Packed.of(mine).data)))
     keys = [store.keep(mine) for _ in range(3)]
     assert store.find(keys[0]) is None
     assert store.find(keys[2]).digest == mine.digest
+
+
+def test_a_kept_building_takes_a_small_part_of_its_size_and_comes_back_whole():
+    mine = load_sample("d")
+    store = Works()
+    found = store.find(store.keep(mine))
+    assert found.digest == mine.digest
+    assert found.title == mine.title
+    assert store.n_bytes < size_of([mine]) / 10
 
 
 def test_shared_parts_are_counted_once():
@@ -465,6 +475,25 @@ def test_the_store_is_bounded_in_bytes_whatever_is_put_in():
         assert len(store.get(i, lambda: bytes(300))) == 300
     assert store.n_bytes <= 1000
     assert len(store.get("large", lambda: bytes(5000))) == 5000
+    assert store.n_bytes <= 1000
+
+
+def test_results_that_share_an_array_count_it_once():
+    store, array = Store(max_bytes=1000), bytes(600)
+    for i in range(20):
+        store.get(i, lambda: [array, bytes(10)])
+    made = []
+    for i in range(20):
+        store.get(i, lambda: made.append(1))
+    assert made == []
+
+
+def test_what_grows_in_the_store_is_measured_anew():
+    store = Store(max_bytes=1000)
+    first = store.get(0, lambda: [bytes(100)])
+    first.append(bytes(900))
+    for i in range(1, 12):
+        store.get(i, lambda: bytes(100))
     assert store.n_bytes <= 1000
 
 

@@ -79,3 +79,12 @@ def test_other_threads_run_while_a_drawing_is_opened(one):
     start = time.process_time()
     building_from_drawing(big)
     assert spent < 0.3 * (time.process_time() - start)
+
+
+def test_it_can_be_started_before_there_is_a_drawing(one):
+    one.start_early()
+    process = one._process
+    one.start_early()
+    assert one._process is process
+    assert one.open_drawing(drawing(), 1500).title == "own plan"
+    assert one._process is process

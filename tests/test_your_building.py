@@ -431,18 +431,53 @@ def test_a_bad_project_is_answered_in_one_sentence_and_loses_nothing(kind):
     assert app.session_state["settings"] is settings
 
 
-def test_a_file_in_metres_is_placed_by_the_scale_and_the_page_says_where():
-    """1 m right of the corner and 2 m above it, at 0.05 m per px, 160 px high."""
+TUM = b"1.0 1 2 0 0 0 0 1\n"
+"""1 m to the right and 2 m up, looking to the right."""
+
+
+def asks(app):
+    return any("are in metres" in one.value for one in app.info)
+
+
+def test_a_file_in_metres_is_placed_where_the_student_says():
+    """At 0.05 m per px, 1 m right of the corner and 2 m above it; then of a corner at
+    (0.5, -1)."""
     app = at("2 Scale", with_rooms())
     app = commit(app, "board_door", points=[[10, 20, 1], [28, 20, 1]])  # 0.9 m
     app = at("6 Trajectory", app, way="Files")
-    app = upload(app, "Trajectory", "log.tum", b"1.0 1 2 0 0 0 0 1\n", "any/any")
+    before, height = own(app).trajectory, own(app).drawing.shape[0]
+    app = upload(app, "Trajectory", "log.tum", TUM, "any/any")
     assert not app.error
-    x_px, y_px, _ = own(app).trajectory.poses[0]
-    assert (x_px, y_px) == pytest.approx((20.0, own(app).drawing.shape[0] - 40.0))
-    assert any("in metres" in one.value and "0.05 m" in one.value for one in app.info)
+    assert asks(app)
+    assert own(app).trajectory is before
+    assert any("0.05 m per pixel" in one.value for one in app.caption)
+    app = press(app, "Place the poses")
+    assert own(app).trajectory.poses[0] == pytest.approx([20.0, height - 40.0, 0.0])
+    app.number_input(key="view_frame_x_m").set_value(0.5).run()
+    app.number_input(key="view_frame_y_m").set_value(-1.0).run()
+    app = press(app, "Place the poses")
+    assert own(app).trajectory.poses[0] == pytest.approx([10.0, height - 60.0, 0.0])
+    app = press(press(app, "Undo"), "Undo")
+    assert own(app).trajectory is before
     app = upload(app, "Trajectory", "log.csv", POSES, "any/any")
-    assert not any("in metres" in one.value for one in app.info)
+    assert not asks(app)
+    assert not any(one.label == "Place the poses" for one in app.button)
+
+
+def test_a_drawing_without_a_scale_gets_the_one_that_its_poses_are_placed_with():
+    """Turned to the left by a quarter, the file's x points down the drawing."""
+    app = at("6 Trajectory", with_rooms(), way="Files")
+    assert own(app).metres_per_px is None
+    app = upload(app, "Trajectory", "log.tum", TUM, "any/any")
+    app.number_input(key="view_frame_metres_per_px").set_value(0.1).run()
+    app.number_input(key="view_frame_turn_deg").set_value(-90.0).run()
+    app.number_input(key="view_frame_y_m").set_value(4.0).run()
+    app = press(app, "Place the poses")
+    height = own(app).drawing.shape[0]
+    # From the corner, 2 m down its frame's y axis: to its right; and 1 m up.
+    expected = [20.0, height - 10.0, -np.pi / 2]
+    assert own(app).trajectory.poses[0] == pytest.approx(expected)
+    assert own(app).metres_per_px == pytest.approx(0.1)
 
 
 BAD_FILES = {

@@ -97,6 +97,11 @@ def with_walls(building: Building) -> Building:
     return replace(building, found=building.walls_found)
 
 
+def expect_drawings() -> None:
+    """Get ready for uploads, where a page offers them."""
+    WORKER.start_early()
+
+
 def own_building(drawing: Drawing, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
     return WORKER.open_drawing(drawing, working_px)

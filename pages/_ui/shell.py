@@ -12,7 +12,7 @@ import streamlit as st
 from streamlit.errors import StreamlitPageNotFoundError
 
 from occsim import OccsimError
-from pages._ui import exercising, lessons, state, words
+from pages._ui import exercising, lessons, memory, state, words
 from pages._ui.components.address import address
 from pages._ui.qr import qr_popover
 
@@ -21,6 +21,8 @@ LOG = logging.getLogger(__name__)
 # Streamlit imports pandas when it is first needed, and plotly looks for it without
 # waiting: a chart that is drawn meanwhile finds half of it. Here it is whole first.
 importlib.import_module("pandas")
+
+memory.use_few_arenas()
 
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
@@ -199,6 +201,7 @@ def page(path: str) -> Iterator[Page]:
         with told:
             _tell_limits()
     _ending()
+    memory.return_freed()
 
 
 @contextlib.contextmanager

@@ -10,20 +10,17 @@ from typing import Any
 
 import streamlit as st
 
-from occsim import OccsimError, Trajectory, load_drawing
+from occsim import OccsimError, load_drawing
 from occsim._files import printable
 from occsim.building import truth_from_image
 from occsim.imaging import Drawing, is_pdf, load_pdf_page, pdf_page_count
-from occsim.io.metric import MetricFrame
-from occsim.io.trajectories import read_trajectory_table
-from pages._ui import compute, state
+from pages._ui import compute, pose_files, state
 
 MAX_UPLOAD_MB = 40
-UNITS = {"As the file says": None, "Degrees": True, "Radians": False}
 WORKING, WORKING_PX = "working_px", 1500
 # Larger scans are reduced while they are decoded: 48 MB at most are kept of a file.
 DECODED_PX = 4000
-PAGE, PDF, POSES = "pdf_page", "pdf", "pose_file"
+PAGE, PDF = "pdf_page", "pdf"
 DRAWINGS = "drawings_taken"
 
 
@@ -40,6 +37,7 @@ def panel() -> None:
 
 def drawing(key: str) -> None:
     """Draw the upload of a drawing."""
+    compute.expect_drawings()
     uploader("Drawing", key, _map_drawing, "Image or PDF; scans of any size.")
     pdf = state.view(PDF, None)
     if pdf is not None and pdf.is_shown:
@@ -63,21 +61,15 @@ def truth(key: str) -> None:
 
 
 def trajectory(key: str) -> None:
-    """Draw the upload of a trajectory, and ask for the unit of its angles."""
-    key = _of_this_drawing(key)
+    """Draw the upload of a trajectory, and ask for what its file does not say."""
     uploader(
         "Trajectory",
-        key,
-        _use_trajectory,
-        "CSV, text, NPY, MAT, JSON or TUM: x, y, theta in each row, x and y in pixels.",
+        _of_this_drawing(key),
+        pose_files.take,
+        "CSV, text, NPY, MAT, JSON or TUM: x, y, theta in each row, x and y in pixels "
+        "or in metres.",
     )
-    _say_metres()
-    st.radio(
-        "Angles in the file",
-        list(UNITS),
-        horizontal=True,
-        **state.bind_view("angle_unit", "As the file says", _read_poses),
-    )
+    pose_files.ask()
 
 
 def _of_this_drawing(key: str) -> str:
@@ -183,61 +175,6 @@ def _use_truth(file: Any) -> None:
     )
     shape = state.building().drawing.shape
     state.edit_building(truth=truth_from_image(image, shape))
-
-
-@dataclass(frozen=True, eq=False)
-class PoseFile:
-    """The trajectory file that was given last, and the trajectory that it belongs to.
-
-    That is what was read from it, or what was there when it was refused.
-    """
-
-    name: str
-    data: bytes
-    trajectory: Trajectory
-    metres: bool = False
-
-
-def _use_trajectory(file: Any) -> None:
-    before = state.building().trajectory
-    state.set_view(POSES, PoseFile(file.name, file.getvalue(), before))
-    _read_poses()
-
-
-def _read_poses() -> None:
-    """Read the last trajectory file, its angles in the chosen unit."""
-    file = state.view(POSES, None)
-    if file is None or file.trajectory is not state.building().trajectory:
-        return
-    unit = UNITS[state.view("angle_unit", "As the file says")]
-    table = read_trajectory_table(file.data, name=file.name)
-    frame = _frame() if table.metres else None
-    trajectory = table.to_trajectory(unit, frame)
-    state.edit_building(trajectory=trajectory)
-    state.set_view(POSES, replace(file, trajectory=trajectory, metres=table.metres))
-
-
-def _say_metres() -> None:
-    """Say where a file in metres was placed: the file does not say it."""
-    file = state.view(POSES, None)
-    building = state.building()
-    if file is None or not file.metres or file.trajectory is not building.trajectory:
-        return
-    st.info(
-        "The positions of this file are in metres. They were placed with the scale of "
-        f"the drawing, {building.metres_per_px:.4g} m per pixel, y up, and the "
-        "drawing's lower left corner at x = 0, y = 0. If that is not where the file's "
-        "zero lies, give the file in pixels (columns x_px, y_px)."
-    )
-
-
-def _frame() -> MetricFrame | None:
-    """Where the drawing lies for a file in metres: its lower left corner at zero."""
-    building = state.building()
-    if building.metres_per_px is None:
-        return None
-    height_px, _ = building.drawing.shape
-    return MetricFrame(height_px=height_px, metres_per_px=building.metres_per_px)
 
 
 def pose_notice() -> None:

@@ -23,6 +23,7 @@ from typing import Any, TypeVar
 from occsim import OccsimError
 from occsim.building import Building, building_from_drawing
 from occsim.imaging import Drawing
+from pages._ui import memory
 
 T = TypeVar("T")
 
@@ -66,11 +67,26 @@ class Worker:
             raise made
         return made
 
-    def _exchange(self, request: object) -> Any:
-        process: Any = self._process
+    def start_early(self) -> None:
+        """Start the process, not waiting for it; its imports take a second."""
+        if self._process is None and self._lock.acquire(blocking=False):
+            try:
+                with contextlib.suppress(
+                    OSError
+                ):  # said when a drawing is to be opened
+                    self._running()
+            finally:
+                self._lock.release()
+
+    def _running(self) -> Any:
+        process = self._process
         if process is None or process.poll() is not None:
             self.end()
             process = self._process = self._started()
+        return process
+
+    def _exchange(self, request: object) -> Any:
+        process = self._running()
         pickle.dump(request, process.stdin, pickle.HIGHEST_PROTOCOL)
         process.stdin.flush()
         return pickle.load(process.stdout)
@@ -114,6 +130,8 @@ def main() -> None:
             made = error
         pickle.dump(made, replies, pickle.HIGHEST_PROTOCOL)
         replies.flush()
+        del args, kwargs, made
+        memory.return_freed()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Buildings packed small: what the history keeps of drawings no longer on the page."""
+"""Buildings packed small: those of the history and those kept for a reload."""
 
 import pickle
 import zlib

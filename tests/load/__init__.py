@@ -1,0 +1,1 @@
+"""A class of students on one server: ``python -m tests.load --clients 30``."""
