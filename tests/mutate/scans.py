@@ -46,6 +46,27 @@ SCANS: tuple[Mutation, ...] = (
         "beams may come in any order",
     ),
     Mutation(
+        "occsim/scan/sectors.py",
+        "beyond.reduceat(beyond(start, end), first, axis=1)",
+        "beyond.reduceat(start, first, axis=1)",
+        ("tests/test_scan.py",),
+        "windows hold both ends of every piece of a scan",
+    ),
+    Mutation(
+        "occsim/rays/scan.py",
+        "for end in (low - 1.0, high + 1.0)",
+        "for end in (low + 1.0, high - 1.0)",
+        ("tests/test_scan.py",),
+        "windows have a margin round what is seen",
+    ),
+    Mutation(
+        "occsim/rays/scan.py",
+        "np.add.at(changes, counter + 1, left)",
+        "np.add.at(changes, counter, left)",
+        ("tests/test_scan.py",),
+        "the pixels left of a crossing do not change sides",
+    ),
+    Mutation(
         "occsim/scan/simulate.py",
         "bearings = ((np.arange(n_beams) + 0.5) / n_beams - 0.5) * sensor.fov_rad",
         "bearings = (np.arange(n_beams) / n_beams - 0.5) * sensor.fov_rad",
