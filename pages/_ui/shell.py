@@ -104,6 +104,12 @@ PAGES = (
         "Find out for yourself: each exercise opens a page with everything set, and is "
         "judged by what you set there.",
     ),
+    Page(
+        state.CLASS_PATH,
+        "Class",
+        "For teachers: prepare a page for your students, let them vote, collect what "
+        "they hand in. No accounts, no names.",
+    ),
 )
 
 # Streamlit leaves 6 rem above the first line and wide gaps between blocks; the first
@@ -152,6 +158,17 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
     image-rendering: pixelated; }
 .st-key-home_ways [data-testid="stPageLink"] a * { white-space: normal; }
 .st-key-home_ways h3 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
+/* A row of the class: the control's name, then what becomes of it. */
+.st-key-class_controls [data-testid="stVerticalBlock"] { gap: 0.2rem; }
+.st-key-class_controls [data-testid="stButtonGroup"] { display: flex;
+    align-items: center; justify-content: space-between; gap: 0.5rem; }
+.st-key-class_controls [data-testid="stButtonGroup"] > label { flex: 1; min-height: 0;
+    margin: 0; }
+.st-key-class_controls [data-testid="stButtonGroup"] > div { flex: none;
+    flex-wrap: nowrap; width: auto; }
+.st-key-class_controls [data-testid="stButtonGroup"] > div button {
+    min-height: 1.9rem; padding: 0 0.6rem; }
+.st-key-class_made .occsim-qr { width: min(34vh, 70vw); }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
@@ -266,6 +283,8 @@ def _ending() -> None:
             " Your own building opens from this server only and for a day; the project "
             "file lasts longer (Your building, 7 Keep)."
         )
+    # The link to a room that one has opened holds its key.
+    may_be_shared = "key" not in state.query()
     with st.container(
         horizontal=True,
         horizontal_alignment="right",
@@ -277,9 +296,11 @@ def _ending() -> None:
             note=note,
             unsaved=not kept,
             progress=state.progress(),
+            has_button=may_be_shared,
             key="address",
         )
-        qr_popover(state.query())
+        if may_be_shared:
+            qr_popover(state.query())
         st.button("Reset all", on_click=state.reset_all)
 
 

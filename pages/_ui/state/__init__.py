@@ -25,6 +25,14 @@ from pages._ui.state.chosen import (
     state_texts,
     work_key,
 )
+from pages._ui.state.classes import (
+    CLASS_PATH,
+    NO_CLASS,
+    came_from,
+    enter_room,
+    room,
+    voter,
+)
 from pages._ui.state.edits import (
     attempt,
     can_redo,
@@ -97,6 +105,12 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "CLASS_PATH",
+    "NO_CLASS",
+    "came_from",
+    "enter_room",
+    "room",
+    "voter",
     "state_texts",
     "open_class",
     "note_hidden",
