@@ -189,6 +189,29 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 """
 
 
+# Read from the back of a room: text 1.4 times as large, thicker marks, no captions. Map
+# and transport stay on one screen of 1280 x 720.
+PROJECTOR_CSS = """
+<style>
+:root { --occsim-text: 1.4; --occsim-words: none; font-size: 22.4px !important;
+    --occsim-canvas-height: clamp(220px, 100vh - 200px, 900px);
+    --occsim-canvas-height-several: clamp(180px, 100vh - 360px, 800px); }
+[data-testid="stCaptionContainer"], .st-key-map_words, .stMainBlockContainer h1,
+.st-key-home_ways { display: none; }
+.stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
+.st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
+    scrollbar-width: none; }
+.st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
+    white-space: nowrap; }
+/* The map comes first, the settings of the sensor below it. */
+:has(> .st-key-map_controls) { order: 1; }
+:has(> .st-key-ending) { order: 3; }
+[data-testid="stProgress"] [role="progressbar"] > div,
+[data-testid="stProgress"] [role="progressbar"] > div > div { height: 1rem; }
+</style>
+"""
+
+
 @contextlib.contextmanager
 def page(path: str) -> Iterator[Page]:
     """Draw what every page has around its own part.
@@ -205,6 +228,8 @@ def page(path: str) -> Iterator[Page]:
     )
     st.html(CSS)
     state.prepare(path)
+    if state.projector():
+        st.html(PROJECTOR_CSS)
     state.finish()
     state.take_kept()
     state.follow_link(path)
@@ -296,11 +321,19 @@ def _ending() -> None:
             note=note,
             unsaved=not kept,
             progress=state.progress(),
+            projector=state.projector(),
             has_button=may_be_shared,
             key="address",
         )
         if may_be_shared:
             qr_popover(state.query())
+        st.button(
+            "Leave the projector" if state.projector() else "Projector",
+            on_click=state.set_projector,
+            args=(not state.projector(),),
+            help="Larger text and thicker marks; the keys 1 to 9 open the lessons, "
+            "space plays.",
+        )
         st.button("Reset all", on_click=state.reset_all)
 
 

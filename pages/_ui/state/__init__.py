@@ -19,8 +19,10 @@ from pages._ui.state.chosen import (
     open_class,
     path,
     prepare,
+    projector,
     query,
     reset_all,
+    set_projector,
     settings,
     state_texts,
     work_key,
@@ -105,6 +107,8 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "projector",
+    "set_projector",
     "CLASS_PATH",
     "NO_CLASS",
     "came_from",

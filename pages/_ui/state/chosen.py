@@ -81,6 +81,7 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     notices = enter_class(query)
     enter_room(query.get("room", ""), query.get("key", ""))
     query = {**class_texts(), **query}
+    state.projector = query.get("projector") == "1"
     state.own, state.work = None, None
     state.path = path
     state.message, state.generation = "", 0
@@ -182,7 +183,7 @@ def query() -> dict[str, str]:
     exercise = st.session_state.get("exercise")
     open_one = {} if exercise is None else {"exercise": exercise}
     said = encode(settings(), limits().kept(base()))
-    more = class_in_link() | room_in_link()
+    more = class_in_link() | room_in_link() | _projector_in_link()
     return where | _lesson() | said | place | open_one | more
 
 
@@ -200,6 +201,22 @@ def _lesson() -> dict[str, str]:
     number = st.session_state.get("lesson", "")
     is_here = lesson_in(number, st.session_state.path) is not None
     return {"lesson": number} if is_here else {}
+
+
+def projector() -> bool:
+    """Whether the pages are shown on a projector."""
+    return bool(st.session_state.get("projector"))
+
+
+def set_projector(on: bool) -> None:
+    """Show the pages as on a projector, or no longer; sizes are measured anew."""
+    st.session_state.projector = on
+    forget_player()
+    forget_lens()
+
+
+def _projector_in_link() -> dict[str, str]:
+    return {"projector": "1"} if projector() else {}
 
 
 def _section() -> dict[str, str]:
