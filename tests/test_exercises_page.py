@@ -6,7 +6,9 @@ from dataclasses import replace
 import pytest
 from streamlit.testing.v1 import AppTest
 
-from pages._ui import compute, exercising
+from pages._ui import compute
+from pages._ui.exercise_pages import FOLDER_PAGES
+from pages._ui.progress import FORMAT, Attempt
 from pages._ui.state import exercise as kept
 from tests.test_pages import ROOT, said
 
@@ -22,7 +24,7 @@ def opened(name):
     app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
     app.switch_page(LIST).run()
     app.button(key=f"open_{name}").click().run()
-    app.switch_page(exercising.FOLDER_PAGES[exercise(name).page]).run()
+    app.switch_page(FOLDER_PAGES[exercise(name).page]).run()
     assert not app.exception
     return app
 
@@ -52,7 +54,7 @@ def test_the_list_has_all_of_them():
 
 def test_every_exercise_opens_on_a_page_that_exists():
     for one in compute.exercises():
-        assert (ROOT / exercising.FOLDER_PAGES[one.page]).is_file()
+        assert (ROOT / FOLDER_PAGES[one.page]).is_file()
 
 
 def test_an_exercise_sets_its_page_up_and_asks_for_the_prediction_first():
@@ -160,7 +162,7 @@ def test_each_kind_of_page_shows_its_exercise(name):
 
 
 def test_what_the_browser_kept_is_read_again():
-    given = kept.Attempt(first="yes", answers={"p": 0.1}, n_checks=2, is_solved=True)
+    given = Attempt(first="yes", answers={"p": 0.1}, n_checks=2, is_solved=True)
     rows = {
         "x": {
             "solved": True,
@@ -170,8 +172,8 @@ def test_what_the_browser_kept_is_read_again():
             "hints": 0,
         }
     }
-    text = json.dumps({"format": kept.FORMAT, "exercises": rows})
-    assert kept.attempts_in(text) == {"x": given}
+    text = json.dumps({"format": FORMAT, "exercises": rows})
+    assert kept.kept_progress(text).attempts == {"x": given}
 
 
 @pytest.mark.parametrize(
@@ -185,4 +187,4 @@ def test_what_the_browser_kept_is_read_again():
     ],
 )
 def test_a_damaged_progress_is_none(text):
-    assert kept.attempts_in(text) == {}
+    assert kept.kept_progress(text).attempts == {}

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from streamlit.testing.v1 import AppTest
 
 from occsim.exercises import CONTROLS
-from pages._ui import compute, exercising, limits
+from pages._ui import compute, limits
 from pages._ui.columns import Column
 from pages._ui.components.player import encode_document, player_data
+from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.limits import NAMES, OF_LENS, OF_ONE_MAP, OF_SEVERAL, Limits
 from pages._ui.settings import TABLE, Settings
 from tests.test_pages import ROOT, control, said
@@ -189,5 +190,5 @@ def test_these_exercises_lock_a_setting_that_is_seen(name):
 
 def test_every_exercise_opens_under_its_limits():
     for one in compute.exercises():
-        app = at(exercising.FOLDER_PAGES[one.page], exercise=one.id)
+        app = at(FOLDER_PAGES[one.page], exercise=one.id)
         assert not app.error, one.id

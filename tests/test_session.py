@@ -54,7 +54,8 @@ def session(monkeypatch):
         query_params = type("Query", (), {"to_dict": lambda self: {}})()
 
     more = state.lens, state.replay, state.widgets, state.pairs
-    for module in (chosen, edits, state.held, state.opening, *more):
+    more = *more, state.held, state.opening, state.classes
+    for module in (chosen, edits, *more):
         monkeypatch.setattr(module, "st", Streamlit)
     monkeypatch.setattr(
         chosen.compute,

@@ -17,7 +17,7 @@ from occsim.exercises.exercise import (
     parsed_checks,
     quantities,
 )
-from occsim.exercises.facts import GROUPS, Context, is_fact
+from occsim.exercises.facts import GROUPS, Context, Readings, is_fact, simulated
 from occsim.exercises.grammar import Tree, names_of, parse
 from occsim.exercises.state import FLAWS, SETTINGS, ExerciseState, changed
 
@@ -86,7 +86,10 @@ def load_exercises(folder: str | PathLike[str]) -> tuple[Exercise, ...]:
 
 
 def load_exercise(
-    source: str | PathLike[str] | bytes, *, name: str = "exercise"
+    source: str | PathLike[str] | bytes,
+    *,
+    name: str = "exercise",
+    readings: Readings = simulated,
 ) -> Exercise:
     """Return the exercise of one file, proven.
 
@@ -96,6 +99,8 @@ def load_exercise(
         A TOML file, or its content.
     name : str, optional
         Name of the file, where its content is given.
+    readings : callable, optional
+        As in `Facts`; the proof needs them.
 
     Returns
     -------
@@ -113,7 +118,7 @@ def load_exercise(
     else:
         name, content = Path(source).name, _read(Path(source))
     try:
-        return _exercise(_tables(content), name)
+        return _exercise(_tables(content), name, readings)
     except OccsimError as error:
         raise ParameterError(f"{name}: {error}") from error
 
@@ -137,7 +142,7 @@ def _tables(content: bytes) -> dict[str, Any]:
         raise ParameterError(f"not a TOML file: {error}") from error
 
 
-def _exercise(given: Mapping[str, Any], name: str) -> Exercise:
+def _exercise(given: Mapping[str, Any], name: str, readings: Readings) -> Exercise:
     unknown = sorted(set(given) - _KEYS)
     if unknown:
         raise ParameterError(f"there is no key called {unknown[0]!r} in an exercise")
@@ -179,7 +184,7 @@ def _exercise(given: Mapping[str, Any], name: str) -> Exercise:
     )
     _require_parts(made)
     if not made.is_open:
-        _prove(made, _table(given, "proof"))
+        _prove(made, _table(given, "proof"), readings)
     return made
 
 
@@ -308,7 +313,7 @@ def _require_names(tree: Tree, made: Exercise) -> None:
 # --- Proof ----------------------------------------------------------------------------
 
 
-def _prove(made: Exercise, proof: Mapping[str, Any]) -> None:
+def _prove(made: Exercise, proof: Mapping[str, Any], readings: Readings) -> None:
     witnesses, wrong = _states(proof, "witness"), _states(proof, "wrong")
     if len(witnesses) != len(made.checks):
         raise ParameterError(
@@ -319,16 +324,16 @@ def _prove(made: Exercise, proof: Mapping[str, Any]) -> None:
         raise ParameterError("the proof needs a wrong answer")
     for witness in witnesses:
         _require_reachable(made, witness)
-    if _solves(made, {}, 0):
+    if _solves(made, {}, 0, readings):
         raise ParameterError("the check holds already at the set-up")
     for stage, witness in enumerate(witnesses):
-        if not _solves(made, witness, stage):
-            verdict = judge(made, changed(made.setup, witness), stage)
+        if not _solves(made, witness, stage, readings):
+            verdict = judge(made, changed(made.setup, witness), stage, readings)
             raise ParameterError(
                 f"the check does not hold at the witness {witness}: {verdict.distance}"
             )
     for answer in wrong:
-        if _solves(made, answer, len(made.checks) - 1):
+        if _solves(made, answer, len(made.checks) - 1, readings):
             raise ParameterError(f"the check holds at the wrong answer {answer}")
 
 
@@ -340,8 +345,10 @@ def _states(proof: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
     return list(rows)
 
 
-def _solves(made: Exercise, changes: Mapping[str, Any], stage: int) -> bool:
-    return judge(made, changed(made.setup, changes), stage).is_solved
+def _solves(
+    made: Exercise, changes: Mapping[str, Any], stage: int, readings: Readings
+) -> bool:
+    return judge(made, changed(made.setup, changes), stage, readings).is_solved
 
 
 def _require_reachable(made: Exercise, witness: Mapping[str, Any]) -> None:

@@ -6,26 +6,8 @@ import streamlit as st
 
 from occsim.exercises import Exercise, Question
 from pages._ui import state, words
+from pages._ui.exercise_pages import FOLDER_PAGES, shown_option
 from pages._ui.state import exercise as kept
-
-FOLDER_PAGES = {
-    "what_the_sensor_says": "pages/0_What_the_sensor_says.py",
-    "build_a_map": "pages/1_Build_a_map.py",
-    "your_building": "pages/2_Your_building.py",
-    "two_maps": "pages/3_Two_maps.py",
-    "sweep_the_priors": "pages/5_Sweep_the_priors.py",
-    "pareto_explorer": "pages/6_Pareto_explorer.py",
-    "best_prior": "pages/7_Best_prior.py",
-    "study": "pages/8_Study.py",
-}
-RULE_WORDS = {
-    "prior_once": "count the drawing once",
-    "subtract_prior": "take it off at every reading",
-    "unseen": "where nobody looked, the pair is wrong",
-    "noise": "the sensor is noisy",
-    "cells": "the cells are too large",
-}
-"""Options that are words of a check, as they are shown."""
 
 
 def is_here() -> bool:
@@ -43,20 +25,14 @@ def panel() -> None:
     with st.container(border=True, key="exercise"):
         task, answer = st.columns([3, 2], gap="large")
         with task:
-            st.markdown(
-                f"**Exercise {exercise.number}: {exercise.title}{_stop(exercise)}** "
-                f"{words.maths(exercise.goal)}"
-            )
+            title = f"Exercise {exercise.number}: {words.prose(exercise.title)}"
+            st.markdown(f"**{title}{_stop(exercise)}** {words.prose(exercise.goal)}")
             _hints(exercise)
         with answer:
             if _has_predicted(exercise):
                 _questions(exercise)
                 _verdict(exercise)
         _buttons(exercise)
-
-
-def _shown(option: str) -> str:
-    return RULE_WORDS.get(option, option)
 
 
 def _stop(exercise: Exercise) -> str:
@@ -69,10 +45,10 @@ def _has_predicted(exercise: Exercise) -> bool:
     if question is None or attempt.first is not None:
         return True
     first = st.radio(
-        f"Predict. {words.maths(question.text)}",
+        f"Predict. {words.prose(question.text)}",
         question.options,
         index=None,
-        format_func=_shown,
+        format_func=lambda option: words.prose(shown_option(option)),
         **state.bind_view(f"predict_{exercise.id}", None),
     )
     if first is None:
@@ -93,13 +69,13 @@ def _ask(exercise: Exercise, question: Question) -> None:
     # being typed during a run.
     key = kept.widget_of(exercise, question)
     before = kept.answer_before(exercise, question)
-    label = words.maths(question.text)
+    label = words.prose(question.text)
     if question.options:
         st.selectbox(
             label,
             question.options,
             index=question.options.index(before) if before else None,
-            format_func=_shown,
+            format_func=shown_option,
             key=key,
         )
     else:
@@ -108,14 +84,18 @@ def _ask(exercise: Exercise, question: Question) -> None:
 
 def _hints(exercise: Exercise) -> None:
     for hint in exercise.hints[: kept.attempt_of(exercise).n_hints]:
-        st.caption(f"Hint. {words.maths(hint)}")
+        st.caption(f"Hint. {words.prose(hint)}")
 
 
 def _verdict(exercise: Exercise) -> None:
     attempt = kept.attempt_of(exercise)
     if attempt.is_solved:
-        first = f" You predicted: {_shown(attempt.first)}." if attempt.first else ""
-        st.success(f"Solved.{first} {words.maths(exercise.after)}")
+        first = (
+            f" You predicted: {words.prose(shown_option(attempt.first))}."
+            if attempt.first
+            else ""
+        )
+        st.success(f"Solved.{first} {words.prose(exercise.after)}")
         return
     verdict = attempt.verdict
     if verdict is None:
@@ -123,7 +103,8 @@ def _verdict(exercise: Exercise) -> None:
     if verdict.is_solved:
         st.info("That part is solved. Go on with the next.")
         return
-    st.info(" ".join(filter(None, ("Not yet.", verdict.near_miss, verdict.distance))))
+    said = (verdict.near_miss, verdict.distance)
+    st.info(" ".join(["Not yet.", *(words.prose(text) for text in said if text)]))
 
 
 def _buttons(exercise: Exercise) -> None:
@@ -159,13 +140,28 @@ def all_exercises() -> None:
     st.progress(solved / judged, text=f"{solved} of {judged} solved")
     for exercise in found:
         _row(exercise)
-    st.download_button(
-        "Progress as a file",
-        kept.progress_text(),
-        file_name="progress.json",
-        mime="application/json",
-        on_click="ignore",
-    )
+    _hand_in()
+
+
+def _hand_in() -> None:
+    """What the teacher collects: a file with all that was predicted and tried."""
+    st.subheader("Hand in", anchor=False)
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        name = st.text_input(
+            "Your name in the file (optional)",
+            max_chars=60,
+            help="It stands in the file only: this server keeps no names.",
+            width=320,
+            **state.bind_view("hand_in_name", ""),
+        )
+        st.download_button(
+            "Progress as a file",
+            # Made when it is asked for: it has the time in it.
+            lambda: kept.progress_file(name),
+            file_name="progress.json",
+            mime="application/json",
+            on_click="ignore",
+        )
 
 
 def _row(exercise: Exercise) -> None:
@@ -174,8 +170,8 @@ def _row(exercise: Exercise) -> None:
     with st.container(horizontal=True, vertical_alignment="center"):
         open_button(exercise, "Open", "open")
         st.markdown(
-            f"**{exercise.number}. {exercise.title}** (lesson {exercise.lesson}, "
-            f"{exercise.minutes} min) {status}"
+            f"**{exercise.number}. {words.prose(exercise.title)}** (lesson "
+            f"{exercise.lesson}, {exercise.minutes} min) {status}"
         )
 
 

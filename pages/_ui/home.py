@@ -6,7 +6,8 @@ import streamlit as st
 
 from occsim import UpdateRule
 from occsim.building import Building
-from pages._ui import lessons, outcomes, state, teaching, words
+from pages._ui import lessons, outcomes, shell, state, teaching, words
+from pages._ui.classroom import voting
 from pages._ui.columns import HOME_COLUMNS
 from pages._ui.components.player import PlayerDocument
 from pages._ui.course import COURSE
@@ -16,6 +17,8 @@ TWO_MAPS = "pages/3_Two_maps.py"
 YOUR_BUILDING = "pages/2_Your_building.py"
 OWN, WRONG = HOME_COLUMNS[1:]
 FINDING = "The wrong drawing now beats the right one. Find out why: lesson 5."
+ARROW = ":material/arrow_forward:"
+LABELS = {page.path: page.label for page in shell.PAGES}
 
 
 # --- What the maps come to ------------------------------------------------------------
@@ -57,12 +60,40 @@ def plans() -> None:
     """Ways through the lessons, by the time that one has."""
     st.subheader("I have", anchor=False)
     st.markdown("**2 minutes.** Watch the maps above, then compare two of them.")
-    st.page_link(TWO_MAPS, label="Two maps, one clock", icon=":material/arrow_forward:")
+    st.page_link(TWO_MAPS, label="Two maps, one clock", icon=ARROW)
     for minutes in teaching.PLANS:
         with st.expander(f"**{minutes} minutes.** A lesson for a class"):
             _plan(minutes)
     st.markdown("**My own plan.** Begin with a drawing of your own.")
-    st.page_link(YOUR_BUILDING, label="Your building", icon=":material/arrow_forward:")
+    st.page_link(YOUR_BUILDING, label="Your building", icon=ARROW)
+    class_code()
+
+
+def class_code() -> None:
+    """The way into a class: a code that the teacher has shown."""
+    entered = state.class_now()
+    if entered is not None and entered.page in LABELS:
+        st.markdown("**You are in a class.**")
+        st.page_link(entered.page, label=LABELS[entered.page], icon=ARROW)
+        return
+    with st.form("class_code", border=False):
+        code = st.text_input(
+            "I have a class code", max_chars=40, placeholder="from your teacher"
+        )
+        if st.form_submit_button("Go"):
+            _enter(code)
+
+
+def _enter(code: str) -> None:
+    """Go into the room or the class of a code."""
+    if voting.is_room(code):
+        state.enter_room(code)
+        st.switch_page(state.CLASS_PATH)
+    prepared = state.open_class(code)
+    if prepared is None:
+        st.warning(state.NO_CLASS)
+    elif prepared.page in LABELS:
+        st.switch_page(prepared.page)
 
 
 def _plan(minutes: int) -> None:

@@ -39,6 +39,35 @@ OF_SEVERAL = (
     *OUTPUTS,
 )
 """What the lens has, and the player with one map and with several."""
+_MORE = ("range_px", "fov_deg", "wall_share", "truth_share")
+_ERRORS = (
+    *("prior_drawing", "thickness_px", "shift_x_px", "shift_y_px", "rotation_deg"),
+    *("drawing_scale", "missing_share", "false_share"),
+)
+_OF_PRIORS = (
+    *("drawing", "cell_px", *_ERRORS, "presets", "behind_hit", "region"),
+    *(*_MORE, "rule", "p_wall", "p_space"),
+)
+OF_PAGES: Mapping[str, tuple[str, ...]] = {
+    "pages/0_What_the_sensor_says.py": OF_LENS,
+    "pages/1_Build_a_map.py": (
+        *("drawing", "cell_px", *_ERRORS, *_MORE, "presets", "behind_hit"),
+        *("clear_no_hit", *OF_ONE_MAP),
+    ),
+    "pages/3_Two_maps.py": ("drawing", "range_px", "fov_deg", *OF_SEVERAL),
+    "pages/5_Sweep_the_priors.py": (*_OF_PRIORS, "surface", "drawings", "fineness"),
+    "pages/6_Pareto_explorer.py": (
+        *(*_OF_PRIORS, "exploring", "axes", "picture", "min_recall", "tolerance"),
+        *("objectives", "elitism", "pop_size", "n_gen", "seed"),
+    ),
+    "pages/7_Best_prior.py": (*_OF_PRIORS, "min_recall", "handover"),
+    "pages/8_Study.py": (
+        *("study_rule", "region", "behind_hit"),
+        *("wall_share", "truth_share", "min_recall"),
+    ),
+    "pages/2_Your_building.py": ("drawing",),
+}
+"""What each page has, for a teacher to hide and lock."""
 NAMES: Mapping[str, str] = {
     **OTHERS,
     **{name: one.label for name, one in TABLE.items()},

@@ -104,6 +104,12 @@ PAGES = (
         "Find out for yourself: each exercise opens a page with everything set, and is "
         "judged by what you set there.",
     ),
+    Page(
+        state.CLASS_PATH,
+        "Class",
+        "For teachers: prepare a page for your students, let them vote, collect what "
+        "they hand in. No accounts, no names.",
+    ),
 )
 
 # Streamlit leaves 6 rem above the first line and wide gaps between blocks; the first
@@ -152,6 +158,17 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
     image-rendering: pixelated; }
 .st-key-home_ways [data-testid="stPageLink"] a * { white-space: normal; }
 .st-key-home_ways h3 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
+/* A row of the class: the control's name, then what becomes of it. */
+.st-key-class_controls [data-testid="stVerticalBlock"] { gap: 0.2rem; }
+.st-key-class_controls [data-testid="stButtonGroup"] { display: flex;
+    align-items: center; justify-content: space-between; gap: 0.5rem; }
+.st-key-class_controls [data-testid="stButtonGroup"] > label { flex: 1; min-height: 0;
+    margin: 0; }
+.st-key-class_controls [data-testid="stButtonGroup"] > div { flex: none;
+    flex-wrap: nowrap; width: auto; }
+.st-key-class_controls [data-testid="stButtonGroup"] > div button {
+    min-height: 1.9rem; padding: 0 0.6rem; }
+.st-key-class_made .occsim-qr { width: min(34vh, 70vw); }
 @media (max-width: 640px) {
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
@@ -172,6 +189,29 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 """
 
 
+# Read from the back of a room: text 1.4 times as large, thicker marks, no captions. Map
+# and transport stay on one screen of 1280 x 720.
+PROJECTOR_CSS = """
+<style>
+:root { --occsim-text: 1.4; --occsim-words: none; font-size: 22.4px !important;
+    --occsim-canvas-height: clamp(220px, 100vh - 200px, 900px);
+    --occsim-canvas-height-several: clamp(180px, 100vh - 360px, 800px); }
+[data-testid="stCaptionContainer"], .st-key-map_words, .stMainBlockContainer h1,
+.st-key-home_ways { display: none; }
+.stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
+.st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
+    scrollbar-width: none; }
+.st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
+    white-space: nowrap; }
+/* The map comes first, the settings of the sensor below it. */
+:has(> .st-key-map_controls) { order: 1; }
+:has(> .st-key-ending) { order: 3; }
+[data-testid="stProgress"] [role="progressbar"] > div,
+[data-testid="stProgress"] [role="progressbar"] > div > div { height: 1rem; }
+</style>
+"""
+
+
 @contextlib.contextmanager
 def page(path: str) -> Iterator[Page]:
     """Draw what every page has around its own part.
@@ -188,6 +228,8 @@ def page(path: str) -> Iterator[Page]:
     )
     st.html(CSS)
     state.prepare(path)
+    if state.projector():
+        st.html(PROJECTOR_CSS)
     state.finish()
     state.take_kept()
     state.follow_link(path)
@@ -266,6 +308,8 @@ def _ending() -> None:
             " Your own building opens from this server only and for a day; the project "
             "file lasts longer (Your building, 7 Keep)."
         )
+    # The link to a room that one has opened holds its key.
+    may_be_shared = "key" not in state.query()
     with st.container(
         horizontal=True,
         horizontal_alignment="right",
@@ -277,9 +321,19 @@ def _ending() -> None:
             note=note,
             unsaved=not kept,
             progress=state.progress(),
+            projector=state.projector(),
+            has_button=may_be_shared,
             key="address",
         )
-        qr_popover(state.query())
+        if may_be_shared:
+            qr_popover(state.query())
+        st.button(
+            "Leave the projector" if state.projector() else "Projector",
+            on_click=state.set_projector,
+            args=(not state.projector(),),
+            help="Larger text and thicker marks; the keys 1 to 9 open the lessons, "
+            "space plays.",
+        )
         st.button("Reset all", on_click=state.reset_all)
 
 

@@ -56,6 +56,20 @@ def plain(text: str) -> str:
     return _MARKUP.sub(r"\\\1", joined)
 
 
+_NAMES = re.compile(rf"\b({'|'.join(_SYMBOLS)})\b")
+
+
+def prose(text: str) -> str:
+    """Return another's text as it is, but for the names of the model's quantities.
+
+    For exercises, which a teacher may have written: no link, no picture, no HTML.
+    """
+    parts = _NAMES.split(text)
+    return "".join(
+        f"${_SYMBOLS[part]}$" if i % 2 else plain(part) for i, part in enumerate(parts)
+    )
+
+
 def percent(value: float) -> str:
     """A share in percent; a dash where it is undefined."""
     return DASH if value != value else f"{100 * value:.1f} %"

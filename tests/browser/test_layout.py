@@ -6,7 +6,7 @@ from pages._ui import shell
 
 pytestmark = pytest.mark.browser
 
-PAGES = [one.path.rpartition("/")[2][2:-3] for one in shell.PAGES[1:]]
+PAGES = [one.path.rpartition("/")[2].partition("_")[2][:-3] for one in shell.PAGES[1:]]
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844)], ids=["laptop", "phone"])

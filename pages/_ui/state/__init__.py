@@ -19,11 +19,21 @@ from pages._ui.state.chosen import (
     open_class,
     path,
     prepare,
+    projector,
     query,
     reset_all,
+    set_projector,
     settings,
     state_texts,
     work_key,
+)
+from pages._ui.state.classes import (
+    CLASS_PATH,
+    NO_CLASS,
+    came_from,
+    enter_room,
+    room,
+    voter,
 )
 from pages._ui.state.edits import (
     attempt,
@@ -97,6 +107,14 @@ from pages._ui.state.widgets import (
 )
 
 __all__ = [
+    "projector",
+    "set_projector",
+    "CLASS_PATH",
+    "NO_CLASS",
+    "came_from",
+    "enter_room",
+    "room",
+    "voter",
     "state_texts",
     "open_class",
     "note_hidden",

@@ -12,10 +12,17 @@ from occsim.building import Building
 from pages._ui import compute
 from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.classroom.kept import CLASSES, typed
-from pages._ui.classroom.prepared import ClassError, Prepared, unpacked
+from pages._ui.classroom.prepared import Prepared
 from pages._ui.course import lesson_in
 from pages._ui.settings import Settings, decode, encode, with_changes
 from pages._ui.state import opening
+from pages._ui.state.classes import (
+    class_in_link,
+    class_texts,
+    enter_class,
+    enter_room,
+    room_in_link,
+)
 from pages._ui.state.held import class_drawing, class_now, keep_settings, limits
 from pages._ui.state.lens import forget_lens, lens_in_link, open_lens, reset_lens
 from pages._ui.state.opening import OWN, defaults
@@ -53,7 +60,7 @@ def prepare(path: str) -> None:
         _open_link(path, st.query_params.to_dict())
     # A component that leaves the screen loses its state.
     if state.get("path") != path:
-        state.path = path
+        state.came_from, state.path = state.get("path", ""), path
         _open_page_drawing(path)
         forget_player()
         forget_lens()
@@ -71,8 +78,10 @@ def _open_page_drawing(path: str) -> None:
 def _open_link(path: str, query: Mapping[str, str]) -> None:
     """Start a session from a link; it is read once."""
     state = st.session_state
-    notices = _enter_class(query)
-    query = {**_class_texts(), **query}
+    notices = enter_class(query)
+    enter_room(query.get("room", ""), query.get("key", ""))
+    query = {**class_texts(), **query}
+    state.projector = query.get("projector") == "1"
     state.own, state.work = None, None
     state.path = path
     state.message, state.generation = "", 0
@@ -82,11 +91,11 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
         state.work = query["work"], state.own
         notices += [] if state.own else [GONE]
     wrong = []
-    opening = OPENING_OF.get(path, OPENING)
-    asked = query.get("drawing", opening)
+    first = OPENING_OF.get(path, OPENING)
+    asked = query.get("drawing", first)
     if asked not in sample_names():
         wrong.append("drawing")
-        asked = opening
+        asked = first
     state.choice = OWN if state.own and "drawing" not in query else asked
     asked = query.get("exercise", "")
     state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
@@ -165,23 +174,25 @@ def renew_widgets() -> None:
 
 def query() -> dict[str, str]:
     """Return all that a link to this state says."""
-    name = choice()
+    name, path = choice(), st.session_state.path
     where = {} if name == OWN else {"drawing": name}
     key = work_key()
     if key is not None:
         where["work"] = key
-    place = place_in_replay(building()) | _section() | lens_in_link()
+    place = place_in_replay(building(), path) | _section() | lens_in_link(path)
     exercise = st.session_state.get("exercise")
     open_one = {} if exercise is None else {"exercise": exercise}
     said = encode(settings(), limits().kept(base()))
-    return where | _lesson() | said | place | open_one | class_in_link()
+    more = class_in_link() | room_in_link() | _projector_in_link()
+    return where | _lesson() | said | place | open_one | more
 
 
-def state_texts() -> dict[str, str]:
-    """Return what a link says of the drawing, the settings and the place alone."""
+def state_texts(path: str) -> dict[str, str]:
+    """Return what a link to a page says of drawing, settings and place, held or not."""
     name = choice()
-    where = {} if name == OWN else {"drawing": name}
-    place = place_in_replay(building()) | lens_in_link()
+    key = work_key()
+    where = {"drawing": name} if name != OWN else {"work": key} if key else {}
+    place = place_in_replay(building(), path) | lens_in_link(path)
     return where | encode(settings(), defaults(name)) | place
 
 
@@ -190,6 +201,22 @@ def _lesson() -> dict[str, str]:
     number = st.session_state.get("lesson", "")
     is_here = lesson_in(number, st.session_state.path) is not None
     return {"lesson": number} if is_here else {}
+
+
+def projector() -> bool:
+    """Whether the pages are shown on a projector."""
+    return bool(st.session_state.get("projector"))
+
+
+def set_projector(on: bool) -> None:
+    """Show the pages as on a projector, or no longer; sizes are measured anew."""
+    st.session_state.projector = on
+    forget_player()
+    forget_lens()
+
+
+def _projector_in_link() -> dict[str, str]:
+    return {"projector": "1"} if projector() else {}
 
 
 def _section() -> dict[str, str]:
@@ -218,37 +245,6 @@ def work_key() -> str | None:
 
 # --- The class ------------------------------------------------------------------------
 
-NO_CLASS = (
-    "The class of this link is not on this server: the code is mistyped, the server "
-    "was restarted, or the class has expired. Ask your teacher for the long link."
-)
-
-
-def _enter_class(query: Mapping[str, str]) -> list[str]:
-    """Take over the class that a link names; return what was wrong with it."""
-    state = st.session_state
-    state.prepared, state.class_link = None, {}
-    code, text = query.get("class"), query.get("plan")
-    try:
-        found = unpacked(text) if text else CLASSES.find(typed(code or ""))
-    except ClassError as error:
-        return [f"{error}."]
-    if found is None:
-        return [NO_CLASS] if code else []
-    state.prepared = found
-    state.class_link = {"plan": text} if text else {"class": typed(code or "")}
-    return []
-
-
-def _class_texts() -> Mapping[str, str]:
-    prepared = class_now()
-    return {} if prepared is None else prepared.texts
-
-
-def class_in_link() -> dict[str, str]:
-    """What a link says of the class."""
-    return st.session_state.get("class_link", {})
-
 
 def open_class(code: str) -> Prepared | None:
     """Enter the class of a code that was typed; None if there is none."""
@@ -256,7 +252,6 @@ def open_class(code: str) -> Prepared | None:
     if prepared is not None:
         _open_link(prepared.page, {"class": code})
         renew_widgets()
-        forget_lens()
     return prepared
 
 

@@ -1,35 +1,46 @@
 """The exercise that a student works on: what was predicted, answered and solved."""
 
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import replace
+from datetime import UTC, datetime
 from typing import Any
+from urllib.parse import urlencode
 
 import streamlit as st
 
-from occsim import MappingRun, MapSettings, Prior
+from occsim import OccsimError, Prior
 from occsim.exercises import (
     Exercise,
     ExerciseState,
     Question,
-    Verdict,
-    changed,
     judge,
 )
-from occsim.prior import PRIOR_SCALE
 from occsim.samples import sample_names
-from pages._ui import compute
-from pages._ui.columns import FLAWS
-from pages._ui.settings import Settings
-from pages._ui.state import opening
+from pages._ui import compute, openings
+from pages._ui.exercise_pages import FOLDER_PAGES
+from pages._ui.judging import (
+    LENS_PAGE,
+    PLAYER_PAGES,
+    numbers_of,
+    state_of,
+)
+from pages._ui.progress import (
+    MAX_TEXT,
+    Attempt,
+    Progress,
+    Tried,
+    from_text,
+    to_text,
+)
 from pages._ui.state.chosen import (
     building,
     choice,
     choose,
     renew_widgets,
+    state_texts,
 )
 from pages._ui.state.held import keep_settings, limits
-from pages._ui.state.lens import LensDocument, set_lens, take_from_lens
+from pages._ui.state.lens import set_lens, take_from_lens
 from pages._ui.state.lesson import lessons_row, rows, take_lessons
 from pages._ui.state.replay import (
     PLAYER_KEY,
@@ -38,33 +49,6 @@ from pages._ui.state.replay import (
     put_player,
     take_from_player,
 )
-
-PLAYER_PAGES = "build_a_map", "two_maps"
-LENS_PAGE = "what_the_sensor_says"
-OF_LENS = ("behind_hit", "clear_no_hit", "rule", "range_px", "fov_deg")
-OF_ALL = ("range_px", "fov_deg", "clear_no_hit", "wall_share", "truth_share", "region")
-"""Settings that all maps of a page share."""
-OF_MAP = ("p_wall", "p_space", "uninformative", "rule", "behind_hit", "cell_px")
-"""Settings that each of several maps has for itself."""
-
-
-@dataclass(frozen=True, slots=True)
-class Attempt:
-    """How far a student has come with one exercise.
-
-    ``first`` is what was predicted, None before. ``moved`` holds how far each prior was
-    moved while the pinned cell stayed; ``seen`` the pin and the pair last seen.
-    """
-
-    first: str | None = None
-    answers: Mapping[str, float | str] = field(default_factory=dict)
-    stage: int = 0
-    n_hints: int = 0
-    n_checks: int = 0
-    is_solved: bool = False
-    verdict: Verdict | None = None
-    moved: Mapping[str, float] = field(default_factory=dict)
-    seen: tuple[Any, ...] = ()
 
 
 def attempts() -> dict[str, Attempt]:
@@ -102,15 +86,16 @@ def open_exercise(exercise: Exercise) -> None:
     state = st.session_state
     state.exercise = exercise.id
     choose(exercise.setup.drawing)
-    keep_settings(opening.of_exercise(exercise))
+    keep_settings(openings.of_exercise(exercise))
     if exercise.page == LENS_PAGE:
-        set_lens(opening.lens_of_exercise(exercise))
+        set_lens(openings.lens_of_exercise(exercise))
     key = _player_of(exercise)
     last = exercise.setup.step
     n_readings = len(building().trajectory)
     step = n_readings if last == "end" else int(last)
     pin = exercise.setup.cell
-    put_player(key, step, None if pin is None else _middle(pin, state.settings.cell_px))
+    cell_px = state.settings.cell_px
+    put_player(key, step, None if pin is None else openings.middle(pin, cell_px))
     keep_attempt(exercise, moved={}, seen=())
     renew_widgets()
     forget_player()
@@ -118,22 +103,6 @@ def open_exercise(exercise: Exercise) -> None:
 
 def _player_of(exercise: Exercise) -> str:
     return TWO_MAPS_KEY if exercise.page == "two_maps" else PLAYER_KEY
-
-
-def _middle(cell: tuple[int, int], cell_px: int) -> tuple[float, float]:
-    row, col = cell
-    return (col + 0.5) * cell_px, (row + 0.5) * cell_px
-
-
-def _from_lens(document: LensDocument) -> dict[str, Any]:
-    """What the student has set in the lens, by the names of an exercise."""
-    return {
-        **{name: getattr(document, name) for name in OF_LENS},
-        "p_wall": min(1.0, document.p_free / PRIOR_SCALE),
-        "lens_pose": [document.x_px, document.y_px, document.heading_deg],
-        "lens_cell": [document.row, document.col],
-        "lens_cell_px": document.cell_px,
-    }
 
 
 # --- Judging --------------------------------------------------------------------------
@@ -173,34 +142,10 @@ def student(exercise: Exercise) -> ExerciseState | None:
         # A commit that came with this click is not in the settings yet.
         take_from_player(key)
     state = st.session_state
-    settings: Settings = state.settings
-    played = state.played[key]
-    values = _values(settings, exercise)
-    cell_px = values["cell_px"]
-    pin = played.pin_px
-    values |= {name: getattr(settings, name) for name in OF_ALL}
-    values |= {
-        "drawing": choice(),
-        "step": min(played.step, len(building().trajectory)),
-        "cell": pin and [int(at // cell_px) for at in reversed(pin)],
-        "moved": attempt_of(exercise).moved,
-        "answer": answers(exercise),
-    }
-    if exercise.page == LENS_PAGE:
-        values |= _from_lens(take_from_lens())
-    return changed(ExerciseState(), values)
-
-
-def _values(settings: Settings, exercise: Exercise) -> dict[str, Any]:
-    """The settings of the student's own map: of map A where there are several."""
-    if exercise.page == "two_maps":
-        own: Any = settings.columns[0]
-        flaws = FLAWS[own.flaw]
-    else:
-        own, flaws = settings, settings.flaws
-    found = {name: getattr(own, name) for name in OF_MAP}
-    found["prior_drawing"] = own.prior_drawing.value
-    return found | asdict(flaws)
+    is_lens = exercise.page == LENS_PAGE
+    lens = take_from_lens() if is_lens else state.lens_chosen
+    more = {"moved": attempt_of(exercise).moved, "answer": answers(exercise)}
+    return state_of(exercise, choice(), state.settings, state.played[key], lens, more)
 
 
 def watch(exercise: Exercise) -> None:
@@ -230,35 +175,47 @@ def _moved(
     return {name: max(gap, so_far.get(name, 0.0)) for name, gap in gaps.items()}
 
 
-def _readings(drawing: str, settings: MapSettings) -> MappingRun:
-    """The runs that the pages show, with their bound of what is simulated."""
-    return compute.mapped(compute.sample(drawing), settings)
-
-
 def check(exercise: Exercise) -> None:
     """Judge the student's state; a check that holds leads to the next one."""
     state = student(exercise)
     if state is None:
         return
     attempt = attempt_of(exercise)
-    verdict = judge(exercise, state, attempt.stage, _readings)
+    verdict = judge(exercise, state, attempt.stage, compute.of_sample)
     last = len(exercise.checks) - 1
     stage = min(attempt.stage + 1, last) if verdict.is_solved else attempt.stage
+    tried = attempt.tried
+    if verdict.is_solved or not attempt.is_solved:
+        tried = {**tried, attempt.stage: _tried(exercise, state)}
     keep_attempt(
         exercise,
         verdict=verdict,
         answers=answers(exercise),
         stage=stage,
+        tried=tried,
         n_checks=attempt.n_checks + 1,
         is_solved=attempt.is_solved or (verdict.is_solved and attempt.stage == last),
     )
 
 
-# --- Progress -------------------------------------------------------------------------
+def _tried(exercise: Exercise, state: ExerciseState) -> Tried:
+    """The state that was judged, as a progress holds it."""
+    step = st.session_state.played[_player_of(exercise)].step
+    texts = state_texts(FOLDER_PAGES[exercise.page])
+    return Tried(
+        link=urlencode({**texts, "step": str(step)}),
+        answers=answers(exercise),
+        moved=attempt_of(exercise).moved,
+        numbers=numbers_of(exercise, state),
+        time=_now(),
+    )
 
-FORMAT = "occsim progress"
-MAX_PROGRESS = 100_000
-"""Most characters of a progress that is read."""
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+# --- Progress -------------------------------------------------------------------------
 
 
 def progress() -> str:
@@ -273,55 +230,24 @@ def take_kept() -> None:
     if not isinstance(text, str) or text == state.get("kept"):
         return
     state.kept = text
-    state.attempts = attempts_in(text) | attempts()
-    take_lessons(_part(text, "lessons"))
+    found = kept_progress(text)
+    state.attempts = dict(found.attempts) | attempts()
+    take_lessons(found.lessons)
 
 
 def progress_text() -> str:
-    """Return what was visited, predicted, answered and solved, as JSON."""
-    exercises = {
-        name: {
-            "solved": one.is_solved,
-            "predicted": one.first,
-            "answers": dict(one.answers),
-            "checks": one.n_checks,
-            "hints": one.n_hints,
-        }
-        for name, one in attempts().items()
-        if one.first is not None or one.n_checks or one.n_hints
-    }
-    return json.dumps(
-        {"format": FORMAT, "exercises": exercises, "lessons": lessons_row()}
-    )
+    """Return what was done, as the browser keeps it."""
+    return to_text(attempts(), lessons_row())
 
 
-def attempts_in(text: str) -> dict[str, Attempt]:
-    """Return the attempts of a progress; what cannot be read is left out."""
+def progress_file(name: str) -> str:
+    """Return what was done, as it is handed in: with a name and the time."""
+    return to_text(attempts(), lessons_row(), name[:MAX_TEXT], _now())
+
+
+def kept_progress(text: str) -> Progress:
+    """Return what the browser kept; nothing where it cannot be read."""
     try:
-        given = _part(text, "exercises")
-        return {name: _attempt(row) for name, row in given.items()}
-    except (ValueError, TypeError, KeyError, AttributeError):
-        return {}
-
-
-def _part(text: str, name: str) -> Any:
-    """One part of a progress as JSON; None where it cannot be read."""
-    try:
-        given = json.loads(text[:MAX_PROGRESS])
-        return given[name] if given["format"] == FORMAT else None
-    except (ValueError, TypeError, KeyError, RecursionError):
-        return None
-
-
-def _attempt(row: Mapping[str, Any]) -> Attempt:
-    first = row["predicted"]
-    return Attempt(
-        first=first if isinstance(first, str) else None,
-        answers={
-            name: value if isinstance(value, str) else float(value)
-            for name, value in row["answers"].items()
-        },
-        n_hints=int(row["hints"]),
-        n_checks=int(row["checks"]),
-        is_solved=row["solved"] is True,
-    )
+        return from_text(text)
+    except OccsimError:
+        return Progress({})

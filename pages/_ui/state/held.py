@@ -10,7 +10,7 @@ import streamlit as st
 
 from occsim import sample_names
 from occsim.exercises import Exercise
-from pages._ui import compute
+from pages._ui import compute, openings
 from pages._ui import limits as rules
 from pages._ui.classroom.prepared import Prepared
 from pages._ui.limits import NONE, Limits
@@ -44,7 +44,7 @@ def limits() -> Limits:
     """The limits of the exercise that is open, otherwise those of the class."""
     exercise, prepared = active(), class_now()
     if exercise is not None:
-        return rules.of_exercise(exercise, opening.of_exercise(exercise))
+        return rules.of_exercise(exercise, openings.of_exercise(exercise))
     if prepared is None or not (prepared.hide or prepared.lock):
         return NONE
     hidden, locked = frozenset(prepared.hide), frozenset(prepared.lock)

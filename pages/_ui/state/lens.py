@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import streamlit as st
 
+from pages._ui import openings
 from pages._ui.components.lens.document import (
     OPENING,
     LensDocument,
@@ -12,7 +13,6 @@ from pages._ui.components.lens.document import (
     link_texts,
     with_texts,
 )
-from pages._ui.state import opening
 from pages._ui.state.held import active, class_now, limits
 
 LENS_KEY = "lens"
@@ -65,10 +65,10 @@ def take_from_lens() -> LensDocument:
 
 def open_lens(query: Mapping[str, str]) -> list[str]:
     """Open the lens as a link says; return the names to which it gives wrong values."""
-    found, wrong = with_texts(OPENING, opening.lens_texts(query))
+    found, wrong = with_texts(OPENING, openings.lens_texts(query))
     st.session_state.lens_chosen = _kept(found)
     forget_lens()
-    return [opening.LENS_PREFIX + name for name in wrong]
+    return [openings.LENS_PREFIX + name for name in wrong]
 
 
 def _kept(document: LensDocument) -> LensDocument:
@@ -78,9 +78,9 @@ def _kept(document: LensDocument) -> LensDocument:
     if not held.intersection(HELD_BY.values()):
         return document
     if exercise is not None:
-        own = opening.lens_of_exercise(exercise)
+        own = openings.lens_of_exercise(exercise)
     else:
-        own = opening.lens_of_class(prepared) if prepared else OPENING
+        own = openings.lens_of_class(prepared) if prepared else OPENING
     values = {
         field: getattr(own, field) for field, name in HELD_BY.items() if name in held
     }
@@ -95,9 +95,9 @@ def reset_lens() -> None:
     forget_lens()
 
 
-def lens_in_link() -> dict[str, str]:
+def lens_in_link(path: str) -> dict[str, str]:
     """What a link to the lens says of it; nothing where it is as it opens."""
-    if st.session_state.get("path") != LENS_PATH:
+    if path != LENS_PATH:
         return {}
     texts = link_texts(st.session_state.lens_chosen)
-    return {opening.LENS_PREFIX + name: text for name, text in texts.items()}
+    return {openings.LENS_PREFIX + name: text for name, text in texts.items()}

@@ -1,6 +1,5 @@
 """The documents last sent to the map players, and the student's choices in them."""
 
-import contextlib
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -15,6 +14,7 @@ from pages._ui.components.player import (
     encode_document,
     held_parts,
 )
+from pages._ui.components.player.document import with_place
 from pages._ui.settings import Settings, with_changes
 from pages._ui.state.held import keep_settings, limits
 
@@ -41,14 +41,14 @@ NEW_PLAYED = {
 """What has been played in a new session: nothing."""
 
 
-def player_here() -> str:
-    """The key of the player that a link to this page speaks of."""
+def player_at(path: str) -> str:
+    """The key of the player that a link to a page speaks of."""
     players = {
         TWO_MAPS_PATH: TWO_MAPS_KEY,
         HOME_PATH: HOME_KEY,
         ROBOT_PATH: ROBOT_KEY,
     }
-    return players.get(st.session_state.get("path", ""), PLAYER_KEY)
+    return players.get(path, PLAYER_KEY)
 
 
 def player_document(key: str) -> PlayerDocument:
@@ -170,9 +170,9 @@ def restart_home() -> None:
     forget_player()
 
 
-def place_in_replay(building: Building) -> dict[str, str]:
-    """The position in the replay, as texts for a link; defaults are left out."""
-    key = player_here()
+def place_in_replay(building: Building, path: str) -> dict[str, str]:
+    """The position in a page's replay, as texts for a link; defaults are left out."""
+    key = player_at(path)
     played: PlayerDocument = st.session_state.played[key]
     opening = opening_step(key, building)
     texts = {} if played.step == opening else {"step": str(played.step)}
@@ -187,19 +187,12 @@ def place_in_replay(building: Building) -> dict[str, str]:
 
 def go_to_place(texts: Mapping[str, str]) -> None:
     """Open the replay at the position in a link, if it is valid."""
-    key = player_here()
-    played: PlayerDocument = st.session_state.played[key]
-    commit = encode_document(played)
-    given = ("speed",) if "transport" in limits().held else ("step", "speed")
-    for name in given:
-        with contextlib.suppress(ValueError):
-            commit |= {name: int(texts[name])} if name in texts else {}
-    with contextlib.suppress(ValueError):
-        if "pin" in texts:
-            commit["pin_px"] = [float(at) for at in texts["pin"].split(",")]
+    key = player_at(st.session_state.path)
+    is_held = "transport" in limits().held
+    played = with_place(st.session_state.played[key], texts, is_held)
     if key == HOME_KEY and "home_rule" in texts:
+        commit = encode_document(played)
         for column in commit["columns"]:
             column["rule"] = texts["home_rule"]
-    st.session_state.played = st.session_state.played | {
-        key: decode_commit(commit, played)
-    }
+        played = decode_commit(commit, played)
+    st.session_state.played = st.session_state.played | {key: played}

@@ -23,6 +23,7 @@ def address(
     unsaved: bool = False,
     has_button: bool = True,
     progress: str = "",
+    projector: bool = False,
     key: str,
 ) -> None:
     """Keep the address line in step, and show the button that copies it.
@@ -40,6 +41,8 @@ def address(
     progress : str
         What the browser is to keep of what was done. What it kept before, it commits
         as "kept", once.
+    projector : bool
+        Whether the keys 1 to 9 open the lessons, and space plays.
     key : str
         Key of the component.
     """
@@ -49,6 +52,7 @@ def address(
         "unsaved": unsaved,
         "hasButton": has_button,
         "progress": progress,
+        "projector": projector,
     }
     component(COMPONENT, FOLDER, SCRIPTS)(
         key=key, data=json.dumps(data), on_kept_change=keep_state

@@ -5,13 +5,14 @@ const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
   const { data, parentElement, setStateValue } = component;
-  const { query, note, unsaved, hasButton, progress } = JSON.parse(data);
+  const { query, note, unsaved, hasButton, progress, projector } = JSON.parse(data);
   const root = parentElement.querySelector(".address");
   const said = root.querySelector(".said");
   root.hidden = !hasButton;
   replaceAddress(query);
   heedLeaving(unsaved);
   heedConnection();
+  heedKeys(projector);
   if (hasButton) keepProgress(progress, setStateValue);
   showCurrentPage();
   root.querySelector("button").onclick = () => copy(said, note);
@@ -34,6 +35,19 @@ function replaceAddress(query) {
     // Keep the state that Streamlit's own navigation stores there.
     window.history.replaceState(window.history.state, "", address);
   }
+}
+
+// On a projector a digit opens the lesson of that number, as the row of pages counts them.
+function heedKeys(projector) {
+  const { dataset } = document.documentElement;
+  dataset.occsimProjector = projector ? "1" : "0";
+  if (dataset.occsimKeys) return;
+  dataset.occsimKeys = "1";
+  document.addEventListener("keydown", (event) => {
+    const isOurs = dataset.occsimProjector === "1" && event.target === document.body;
+    if (!isOurs || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (/^[0-9]$/.test(event.key)) document.querySelectorAll(".st-key-lessons a")[Number(event.key)]?.click();
+  });
 }
 
 const PROGRESS = "occsim.progress";

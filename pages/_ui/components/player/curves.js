@@ -165,7 +165,7 @@ function drawMark(context, { x, y }, step, value, colour) {
 }
 
 function drawLevels(context, { y, x0, x1, most, tick }, theme) {
-  context.font = `10px ${theme.font}`;
+  context.font = `${10 * theme.large}px ${theme.font}`;
   context.fillStyle = theme.muted;
   context.textBaseline = "middle";
   for (const share of [0, 0.5, 1]) {

@@ -1,5 +1,6 @@
 """What the student has chosen in the player: to the browser, and back with checks."""
 
+import contextlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from enum import Enum
@@ -90,6 +91,20 @@ def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument:
         pin_px=_point(commit.get("pin_px")),
         predicted=int(predicted) if predicted in range(MAX_COLUMNS + 1) else None,
     )
+
+
+def with_place(
+    document: PlayerDocument, texts: Mapping[str, str], held: bool = False
+) -> PlayerDocument:
+    """Return the document at the place in a link; if held, it stays at its step."""
+    commit = encode_document(document)
+    for name in ("speed",) if held else ("step", "speed"):
+        with contextlib.suppress(ValueError):
+            commit |= {name: int(texts[name])} if name in texts else {}
+    with contextlib.suppress(ValueError):
+        if "pin" in texts:
+            commit["pin_px"] = [float(at) for at in texts["pin"].split(",")]
+    return decode_commit(commit, document)
 
 
 def held_parts(commit: object) -> frozenset[str]:

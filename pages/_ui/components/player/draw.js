@@ -46,7 +46,7 @@ function drawUnscaled(context, picture) {
 function stroke(p, context, colour, width, alpha = 1) {
   context.globalAlpha = alpha;
   context.strokeStyle = colour;
-  context.lineWidth = width / p.scale;
+  context.lineWidth = (width * p.theme.large) / p.scale;
   context.stroke();
   context.globalAlpha = 1;
 }

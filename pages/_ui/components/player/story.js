@@ -15,13 +15,17 @@ function startOf({ uninformative, prior_drawing }) {
   return prior_drawing === "own" ? "own" : "other";
 }
 
-// Space plays and pauses wherever on the page nothing else has the focus.
+// Space plays and pauses wherever on the page nothing else has the focus: on the home page
+// and on a projector.
 function listenToPage(p) {
   p.pageKey = (event) => {
-    if (p.state?.compact && event.target === document.body) keyDown(p, event);
+    const isHeard = p.state?.compact || (event.key === " " && isProjected());
+    if (isHeard && event.target === document.body) keyDown(p, event);
   };
   document.addEventListener("keydown", p.pageKey);
 }
+
+const isProjected = () => document.documentElement.dataset.occsimProjector === "1";
 
 function buildStory(p, { document: { compact, columns }, texts: { story } }) {
   if (!compact) return;

@@ -30,7 +30,7 @@ function drawLadder(p, canvas, bars) {
   const ends = bars.flatMap((bar) => [bar.from, bar.to]);
   const [low, high] = p.termRange ?? [Math.min(-1, ...ends), Math.max(1, ...ends)];
   const y = (v) => top + ((high - v) / (high - low)) * (height - top - bottom);
-  context.font = `10.5px ${p.theme.font}`;
+  context.font = `${10.5 * p.theme.large}px ${p.theme.font}`;
   drawTicks(context, y, { low, high, x0: left, x1: width - right }, p.theme);
   drawBars(context, y, ladder, p.theme, p.header.colours);
   drawLabels(context, height, ladder, p.theme);

@@ -22,5 +22,8 @@ function themeOf(root) {
   const names = ["ink", "paper", "muted", "line", "accent"];
   const theme = Object.fromEntries(names.map((name) => [name, resolved(name)]));
   probe.remove();
-  return { ...theme, font: getComputedStyle(root).fontFamily };
+  // On a projector text is larger and marks are thicker.
+  const style = getComputedStyle(root);
+  const large = Number(style.getPropertyValue("--occsim-text")) || 1;
+  return { ...theme, font: style.fontFamily, large };
 }
