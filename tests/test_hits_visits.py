@@ -21,6 +21,9 @@ from occsim import (
     simulate_scans,
     truth_cells,
 )
+from occsim.io.replay import unpack_log
+from occsim.io.replay_beams import HIT, pack_counts
+from occsim.scan import beam_counts
 from tests.test_evidence import SENSORS
 from tests.test_scan import GRIDS, scan_logs
 
@@ -184,3 +187,55 @@ def test_only_a_kinect_and_a_sick_come_with_a_standard_deviation():
         k for k, one in RANGE_FINDERS.items() if "sigma_0_m" not in one.not_stated
     }
     assert stated == {"kinect", "lms200"}
+
+
+def test_counts_of_scans_add_up_to_those_of_the_log():
+    sample = load_sample("c")
+    log = simulate_scans(sample.world, sample.trajectory, sample.sensor, 30)
+    grid = sample.world.grid(3)
+    counts = beam_counts(log, sample.sensor, grid)
+    whole = hits_visits(log, sample.sensor, grid)
+    for name in ("hits", "visits"):
+        added = np.zeros(grid.n_cells, dtype=np.int64)
+        np.add.at(added, counts.cell, getattr(counts, name))
+        np.testing.assert_array_equal(added.reshape(grid.shape), getattr(whole, name))
+    # And each scan's are those of a log of it alone.
+    for s in (0, 17, log.n_scans - 1):
+        one = ScanLog(
+            log.poses[s : s + 1],
+            log.bearings_rad,
+            log.ranges_px[s : s + 1],
+            log.max_range_px,
+        )
+        alone = hits_visits(one, sample.sensor, grid)
+        part = slice(*counts.indptr[s : s + 2])
+        cells = counts.cell[part]
+        assert (np.diff(cells) > 0).all()
+        np.testing.assert_array_equal(cells, np.flatnonzero(alone.visits))
+        np.testing.assert_array_equal(counts.hits[part], alone.hits.ravel()[cells])
+
+
+def test_counts_reach_the_player_as_exact_numbers():
+    sample = load_sample("d")
+    log = simulate_scans(sample.world, sample.trajectory, sample.sensor, 30)
+    grid = sample.world.grid(3)
+    counts = beam_counts(log, sample.sensor, grid)
+    truth = np.zeros(grid.shape, dtype=bool)
+    packed = pack_counts(counts, truth=truth, trajectory=sample.trajectory)
+    read, _ = unpack_log(packed)
+    visits, hits = np.floor(read.log_odds), read.log_odds % 1.0 / HIT
+    np.testing.assert_array_equal(visits, counts.visits)
+    np.testing.assert_array_equal(hits, counts.hits)
+    np.testing.assert_array_equal(read.cell, counts.cell)
+    # What the player adds up declares the cells that the library declares.
+    differences = 0.25 * visits - hits
+    sums = np.bincount(read.cell, differences, minlength=grid.n_cells)
+    whole = hits_visits(log, sample.sensor, grid)
+    np.testing.assert_array_equal(sums.reshape(grid.shape) < 0, whole.is_occupied())
+
+
+def test_a_scan_that_sees_nothing_has_no_counts():
+    log = ScanLog([[0.5, 0.5, 0.0]], [0.0], [[np.nan]], 20.0)
+    counts = beam_counts(log, Sensor(), Grid(height_px=1, width_px=5, cell_px=1))
+    assert counts.indptr.tolist() == [0, 0]
+    assert counts.cell.size == 0

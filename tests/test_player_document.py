@@ -132,7 +132,11 @@ def test_header_and_parts_travel_as_one_string_of_bytes():
     assert [part["name"] for part in header["parts"]] == ["", "occupied 3"]
     assert header["key"] == "here"
     assert header["document"] == encode_document(ONE)
-    assert header["constants"] == {"decisionEps": DECISION_EPS, "priorScale": 0.9}
+    constants = header["constants"]
+    assert (constants["decisionEps"], constants["priorScale"]) == (DECISION_EPS, 0.9)
+    # gmapping's threshold, and the log-odds of a clear reading: ln 9.
+    assert constants["occupiedAbove"] == 0.25
+    assert constants["declared"] == pytest.approx(math.log(9))
 
 
 def test_a_part_that_the_browser_holds_is_named_but_not_sent_again():

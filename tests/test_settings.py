@@ -10,6 +10,7 @@ from occsim import BehindHit, Region, UpdateRule
 from occsim.priors import Elitism
 from pages._ui.choices import (
     CHOICES,
+    CellModel,
     Drawings,
     Exploring,
     Fineness,
@@ -43,6 +44,7 @@ ANY_COLUMN = st.builds(
     uninformative=st.booleans(),
     rule=st.sampled_from(UpdateRule),
     behind_hit=st.sampled_from(BehindHit),
+    model=st.sampled_from(CellModel),
 )
 ANY_SETTINGS = st.builds(
     Settings,

@@ -1,6 +1,7 @@
-"""The beams of scans as one more part of a replay, for a player to draw.
+"""Scans in a replay: their beams, to be drawn, and gmapping's counts, to be mapped.
 
-One zlib stream; numbers little-endian, S scans of B beams.
+Counts are a log whose values are 1 for each visit and `HIT` for each hit. Beams are one
+more part: one zlib stream; numbers little-endian, S scans of B beams.
 
 ====== ================= ========================================================
 offset type              content
@@ -20,13 +21,18 @@ import zlib
 
 import numpy as np
 
-from occsim.io.replay import ZLIB_LEVEL
-from occsim.scan import ScanLog
+from occsim._types import BoolArray
+from occsim.evidence_log import EvidenceLog
+from occsim.io.replay import ZLIB_LEVEL, pack_log
+from occsim.scan import BeamCounts, ScanLog
 from occsim.sensor import Sensor
+from occsim.trajectory import Trajectory
 
 BEAMS = b"OGB2"
 HEADER = struct.Struct("<4s3Id")
 REACH, NOTHING = 65534, 65535
+HIT = 2.0**-20
+"""So small that a scan's hits of one cell stay below 1; the values are exact."""
 MAX_SHOWN = 2_000_000
 """Most ranges in a replay, 4 MB; of more beams, every n-th is shown."""
 
@@ -60,3 +66,24 @@ def pack_beams(scan_log: ScanLog, sensor: Sensor) -> bytes:
         + levels.tobytes(),
         ZLIB_LEVEL,
     )
+
+
+def pack_counts(
+    counts: BeamCounts, *, truth: BoolArray, trajectory: Trajectory
+) -> bytes:
+    """Return gmapping's counts as bytes: a log of `occsim.io.replay`.
+
+    Parameters
+    ----------
+    counts : BeamCounts
+        Of the scans.
+    truth, trajectory
+        As in `occsim.io.replay.pack_log`.
+
+    Returns
+    -------
+    bytes
+    """
+    values = counts.visits + HIT * counts.hits
+    coded = EvidenceLog.known_sound(counts.grid, counts.indptr, counts.cell, values)
+    return pack_log(coded, truth=truth, trajectory=trajectory)

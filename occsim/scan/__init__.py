@@ -5,7 +5,7 @@ One path for both: a `ScanLog` becomes evidence as the exact readings of
 one for each pixel.
 """
 
-from occsim.scan.cell_model import HitsVisits, hits_visits
+from occsim.scan.cell_model import BeamCounts, HitsVisits, beam_counts, hits_visits
 from occsim.scan.evidence import evidence_from_scans
 from occsim.scan.log import Scan, ScanLog
 from occsim.scan.mapper import Mapper
@@ -15,12 +15,14 @@ from occsim.scan.simulate import simulate_scans
 
 __all__ = [
     "RANGE_FINDERS",
+    "BeamCounts",
     "HitsVisits",
     "Mapper",
     "RangeFinder",
     "Scan",
     "ScanLog",
     "ScanNoise",
+    "beam_counts",
     "evidence_from_scans",
     "hits_visits",
     "simulate_scans",

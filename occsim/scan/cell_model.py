@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
 from occsim.errors import ParameterError, expect, real_number
@@ -147,17 +148,81 @@ def hits_visits(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> HitsVisits:
     expect("sensor", sensor, Sensor)
     expect("grid", grid, Grid)
     hits, visits = (np.zeros(grid.n_cells, dtype=np.int64) for _ in range(2))
-    for start, ends, is_hit in _beams(scan_log, sensor, grid):
-        visits += _counted(_passed(start, ends), grid)
+    for _, start, ends, is_hit in _beams(scan_log, sensor, grid):
+        visits += _counted(_passed(start, ends)[1], grid)
         hits += _counted(ends[:, is_hit], grid)
     visits += hits
     return HitsVisits(grid, hits.reshape(grid.shape), visits.reshape(grid.shape))
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class BeamCounts(ShortRepr):
+    """Counts of beams, scan by scan: what `HitsVisits` adds up.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    indptr : ndarray of int64, shape (S + 1,)
+        Scan s owns the entries ``indptr[s]:indptr[s + 1]``.
+    cell : ndarray of int32, shape (N,)
+        Flat row-major cell of each entry, ascending within a scan.
+    hits, visits : ndarray of int64, shape (N,)
+        Beams of the scan that end in the cell, and that end in it or pass it.
+    """
+
+    grid: Grid
+    indptr: IntArray
+    cell: npt.NDArray[np.int32]
+    hits: IntArray
+    visits: IntArray
+
+
+def beam_counts(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> BeamCounts:
+    """Return how often the beams of each scan end in each cell and pass it.
+
+    Parameters
+    ----------
+    scan_log, sensor, grid
+        As in `hits_visits`, whose counts are the sums of these over the scans.
+
+    Returns
+    -------
+    BeamCounts
+
+    Raises
+    ------
+    TypeError
+        Where an argument is of another type.
+    """
+    expect("scan_log", scan_log, ScanLog)
+    expect("sensor", sensor, Sensor)
+    expect("grid", grid, Grid)
+    n_cells = grid.n_cells
+    parts = [np.zeros((3, 0), dtype=np.int64)]
+    for scan, start, ends, is_hit in _beams(scan_log, sensor, grid):
+        beam, passed = _passed(start, ends)
+        passes = _sorted_counts(scan[beam] * n_cells, passed, grid)
+        ends_in = _sorted_counts(scan[is_hit] * n_cells, ends[:, is_hit], grid)
+        both = np.union1d(passes[0], ends_in[0])
+        hits, visits = (np.zeros(both.size, dtype=np.int64) for _ in range(2))
+        hits[both.searchsorted(ends_in[0])] = ends_in[1]
+        visits[both.searchsorted(passes[0])] = passes[1]
+        visits += hits
+        parts.append(np.stack([both, hits, visits]))
+    key, hits, visits = np.concatenate(parts, axis=1)
+    bounds = np.arange(scan_log.n_scans + 1) * n_cells
+    cell = (key % n_cells).astype(np.int32)
+    return BeamCounts(grid, key.searchsorted(bounds), cell, hits, visits)
+
+
 def _beams(
     scan_log: ScanLog, sensor: Sensor, grid: Grid
-) -> Iterator[tuple[IntArray, IntArray, BoolArray]]:
-    """Yield, batch by batch, rows and columns (2, N) of starts and ends, and hits."""
+) -> Iterator[tuple[IntArray, IntArray, IntArray, BoolArray]]:
+    """Yield, by batches, scans (N,), starts and ends (2, N), and which are hits.
+
+    Starts and ends are rows and columns of cells.
+    """
     usable = min(sensor.range_px, scan_log.max_range_px)
     across = int(min(usable / grid.cell_px, FAR_CELLS)) + 1
     step = max(CELLS_AT_ONCE // (across * scan_log.n_beams), 1)
@@ -173,7 +238,7 @@ def _beams(
         bearing = theta + scan_log.bearings_rad[beam]
         ends = y + z * np.sin(bearing), x + z * np.cos(bearing)
         start, end = _cells(np.array([y, x]), grid), _cells(np.array(ends), grid)
-        yield start, end, np.asarray(ranges[scan, beam] < usable)
+        yield first + scan, start, end, np.asarray(ranges[scan, beam] < usable)
 
 
 def _cells(points_px: FloatArray, grid: Grid) -> IntArray:
@@ -183,18 +248,37 @@ def _cells(points_px: FloatArray, grid: Grid) -> IntArray:
 
 def _counted(cells: IntArray, grid: Grid) -> IntArray:
     """Return how often each cell of the grid stands among rows and columns (2, T)."""
+    return np.bincount(_inside(cells, grid)[1], minlength=grid.n_cells)
+
+
+def _inside(cells: IntArray, grid: Grid) -> tuple[BoolArray, IntArray]:
+    """Return which of rows and columns (2, T) lie in the grid, and their flat cells."""
     row, col = cells
     inside = (row >= 0) & (col >= 0) & (row < grid.n_rows) & (col < grid.n_cols)
-    flat = row[inside] * grid.n_cols + col[inside]
-    return np.bincount(flat, minlength=grid.n_cells)
+    return inside, row[inside] * grid.n_cols + col[inside]
 
 
-def _passed(start: IntArray, end: IntArray) -> IntArray:
-    """Return rows and columns (2, T) of the cells of lines, but the last of each."""
+def _sorted_counts(
+    base: IntArray, cells: IntArray, grid: Grid
+) -> tuple[IntArray, IntArray]:
+    """Return the keys, base and flat cell, of rows and columns, and how often each is.
+
+    Keys ascend; what lies outside the grid does not count.
+    """
+    inside, flat = _inside(cells, grid)
+    keys, counts = np.unique(base[inside] + flat, return_counts=True)
+    return keys, counts
+
+
+def _passed(start: IntArray, end: IntArray) -> tuple[IntArray, IntArray]:
+    """Return the line (T,) and the row and column (2, T) of the cells of lines.
+
+    The last cell of each line is left out.
+    """
     way = end - start
     length = np.abs(way).max(axis=0)
     beam, step = ragged_ranges(np.zeros_like(length), length)
     n = length[beam]
     # The nearest whole number to step |way| / n.
     off = (2 * step * np.abs(way)[:, beam] + n) // (2 * n)
-    return np.asarray(start[:, beam] + np.sign(way)[:, beam] * off)
+    return beam, np.asarray(start[:, beam] + np.sign(way)[:, beam] * off)

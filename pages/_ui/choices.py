@@ -117,6 +117,13 @@ class Flaw(Enum):
     FALSE = "false"
 
 
+class CellModel(Enum):
+    """What a map keeps of each cell."""
+
+    LOG_ODDS = "log_odds"
+    HITS_VISITS = "hits_visits"
+
+
 class Preset(Enum):
     """A named set of conditions."""
 

@@ -6,7 +6,7 @@ from enum import Enum
 
 from occsim import BehindHit, DrawingFlaws, UpdateRule
 from occsim.prior import SOURCE_PAIR
-from pages._ui.choices import Flaw, PriorDrawing
+from pages._ui.choices import CellModel, Flaw, PriorDrawing
 
 FLAWS: Mapping[Flaw, DrawingFlaws] = {
     Flaw.FOUND: DrawingFlaws(),
@@ -43,6 +43,9 @@ class Column:
         What a reading says of the pixels behind the wall that it meets.
     cell_px : int
         Side of a cell, px.
+    model : CellModel
+        What the map keeps of each cell: log-odds, or gmapping's counts, which take no
+        prior.
     """
 
     prior_drawing: PriorDrawing = PriorDrawing.OWN
@@ -54,6 +57,7 @@ class Column:
     rule: UpdateRule = UpdateRule.PRIOR_ONCE
     behind_hit: BehindHit = BehindHit.OCCUPIED
     cell_px: int = 3
+    model: CellModel = CellModel.LOG_ODDS
 
 
 MIN_COLUMNS, MAX_COLUMNS = 2, 3
@@ -69,7 +73,7 @@ HOME_COLUMNS = (
 LOG_COLUMNS = (Column(uninformative=True, behind_hit=BehindHit.UNSEEN, cell_px=1),)
 """A robot's log is mapped without a drawing, in cells of one pixel of its own map."""
 _LETTERS = dict(
-    zip("dfwscurbz", [one.name for one in fields(Column)], strict=True),
+    zip("dfwscurbzm", [one.name for one in fields(Column)], strict=True),
 )
 """The field that each letter stands for in a link."""
 

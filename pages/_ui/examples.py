@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from occsim import UpdateRule
-from pages._ui.choices import Flaw, PriorDrawing
+from pages._ui.choices import CellModel, Flaw, PriorDrawing
 from pages._ui.columns import MAX_COLUMNS, OPENING_COLUMNS, Column
 
+COUNTS = CellModel.HITS_VISITS
 SUBTRACT = UpdateRule.SUBTRACT_PRIOR
 BOLD = (0.1, 1.0)
 """At p_wall = 0.1 one clear look cannot free a wall that is not there: 0.9 * p_wall
@@ -59,6 +60,7 @@ def _all(drawings: tuple[PriorDrawing, ...]) -> list[Example]:
         ("Right or wrong drawing", (Column(), wrong)),
         ("Bold or humble", (bold, Column())),
         ("As found or thinned by 2 px", (Column(rule=SUBTRACT), thin)),
+        ("Log-odds or counts", (Column(uninformative=True), Column(model=COUNTS))),
         ("3 or 1 px cells", (Column(), Column(cell_px=1))),
     ]
 

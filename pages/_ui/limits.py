@@ -20,6 +20,7 @@ OUTPUTS = {
 """What is seen, not set: it vanishes only where it is itself hidden."""
 OTHERS = {
     "drawing": "Drawing",
+    "model": "Cell model: log-odds, or gmapping's counts",
     "lens_cell_px": "Cell size of the lens",
     "presets": "Conditions, and examples of several maps",
     "transport": "Transport of the replay",
@@ -35,7 +36,7 @@ OF_ONE_MAP = (
 )
 OF_SEVERAL = (
     *("prior_drawing", "p_wall", "p_space", "rule", "thickness_px", "behind_hit"),
-    *("cell_px", "overlay", "transport", "presets", "columns"),
+    *("cell_px", "model", "overlay", "transport", "presets", "columns"),
     *OUTPUTS,
 )
 """What the lens has, and the player with one map and with several."""

@@ -1,13 +1,21 @@
 """Robots' logs as maps, computed in the worker and shared by all sessions."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from occsim.building import Building
 from pages._ui import compute
+from pages._ui.choices import CellModel
+from pages._ui.columns import LOG_COLUMNS, Column
 from pages._ui.components.player import Part, Replay
-from pages._ui.robot_data.played import LogOptions, PlayedLog, play_log, simulated_log
+from pages._ui.robot_data.played import (
+    LogOptions,
+    PlayedLog,
+    pack_log_counts,
+    play_log,
+    simulated_log,
+)
 from pages._ui.settings import Settings
 from pages._ui.shared import shared
 from pages._ui.worker import WORKER
@@ -62,6 +70,12 @@ def _played(
         return WORKER.call(play_log, _data, given, _trajectory)
 
 
+@shared("Counting beams")
+def _counts(digest: str, given: LogOptions, _made: PlayedLog) -> bytes:
+    with compute.core():
+        return WORKER.call(pack_log_counts, _made)
+
+
 def simulated(building: Building) -> LogFile:
     """A log that a robot would write on its tour of a building."""
     data = _simulated(building.digest, compute.anonymous(building))
@@ -74,9 +88,14 @@ def _simulated(digest: str, _building: Building) -> bytes:
         return WORKER.call(simulated_log, _building)
 
 
-def replay(log: LogFile, settings: Settings) -> Replay:
+def replay(
+    log: LogFile, settings: Settings, columns: Sequence[Column] = LOG_COLUMNS
+) -> Replay:
     """What the player needs for the maps of a log."""
     made, given = played(log, settings), options(settings)
+    counts = []
+    if any(one.model is CellModel.HITS_VISITS for one in columns):
+        counts = [Part("log", "counts 1", _counts(log.digest, given, made))]
     return Replay(
         base=repr((log.digest, given)),
         parts=(
@@ -84,6 +103,7 @@ def replay(log: LogFile, settings: Settings) -> Replay:
             Part("beams", "", made.beams),
             Part("log", f"{given.behind_hit.value} 1", made.log),
             Part("walls", "own found 1", made.no_walls),
+            *counts,
         ),
         drawings=(),
         has_truth=False,

@@ -1,12 +1,15 @@
 """What the map player needs, packed and shared by all sessions."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
-from occsim import MapSettings, Sensor
+from occsim import MappingRun, MapSettings, ScanSettings, Sensor
 from occsim.building import Building
 from occsim.io.replay import pack_log, pack_scene, pack_walls
-from occsim.io.replay_beams import pack_beams
+from occsim.io.replay_beams import pack_beams, pack_counts
+from occsim.scan import beam_counts
 from pages._ui import compute
+from pages._ui.choices import CellModel
 from pages._ui.columns import FLAWS, Column
 from pages._ui.components.player import Part, Replay
 from pages._ui.settings import Settings
@@ -37,10 +40,15 @@ def _replay(
     for one, key in drawn.items():
         mapping = settings.mapping_of(one)
         behind, drawing = one.behind_hit.value, one.prior_drawing.value
-        log = _log(building.digest, mapping, building)
+        name = f"{behind} {one.cell_px}"
+        if one.model is CellModel.HITS_VISITS:
+            name = f"counts {one.cell_px}"
+            log = _counts(building.digest, _with_beams(mapping, settings), building)
+        else:
+            log = _log(building.digest, mapping, building)
         walls = _walls(building.digest, key, mapping, building)
         parts += [
-            Part("log", f"{behind} {one.cell_px}", log),
+            Part("log", name, log),
             Part("walls", f"{drawing} {one.flaw.value} {one.cell_px}", walls),
         ]
     beams = _beams(building.digest, settings.mapping, building)
@@ -81,6 +89,23 @@ def _beams(digest: str, settings: MapSettings, _building: Building) -> bytes | N
     with compute.core():
         # They are measured at the true poses, at which the robot is drawn.
         return pack_beams(scan_log, settings.sensor)
+
+
+def _with_beams(mapping: MapSettings, settings: Settings) -> MapSettings:
+    """The same with beams to count: exact readings have none."""
+    scan = mapping.scan or ScanSettings(n_beams=settings.dense_beams)
+    return replace(mapping, scan=scan)
+
+
+@shared("Counting beams")
+def _counts(digest: str, settings: MapSettings, _building: Building) -> bytes:
+    with compute.core():
+        run = MappingRun(compute.anonymous(_building), settings)
+        return pack_counts(
+            beam_counts(run.scan_log, settings.sensor, run.grid),
+            truth=run.truth_cells,
+            trajectory=run.building.trajectory,
+        )
 
 
 @shared()

@@ -14,6 +14,7 @@ const SETTING = {
   rule: "prior_once",
   behind_hit: "occupied",
   cell_px: 3,
+  model: "log_odds",
 };
 const option = (value, label) => ({ value, label });
 const WORDS = {
@@ -23,6 +24,7 @@ const WORDS = {
   flaw: [option("found", "as found")],
   behind_hit: [option("occupied", "occupied")],
   cell_px: [option("3", "3 px cells")],
+  model: [option("log_odds", "log-odds"), option("hits_visits", "counts")],
 };
 const withChanges = (changes) => ({ ...SETTING, ...changes });
 
@@ -30,6 +32,13 @@ test("a word differs where two maps have other values of it", () => {
   const settings = [SETTING, withChanges({ rule: "subtract_prior", cell_px: 1 })];
   const differing = player.WORDS.filter((word) => player.differs(settings, word));
   assert.deepEqual(differing, ["rule", "cell_px"]);
+});
+
+test("a map of counts has no drawing, pair or rule to differ in", () => {
+  const settings = [SETTING, withChanges({ model: "hits_visits", rule: "subtract_prior", p_wall: 1 })];
+  const differing = player.WORDS.filter((word) => player.differs(settings, word));
+  assert.deepEqual(differing, ["model"]);
+  assert.equal(player.wordLabel(WORDS, settings[1], "model"), "counts");
 });
 
 test("a map without a drawing has neither pair nor errors to differ in", () => {

@@ -175,3 +175,33 @@ test("log-odds lie on a lattice, on which a tie is exactly zero", () => {
   }
   for (const p of [0.1, 0.18, 0.45, 0.09]) assert.equal(player.logit(p) + player.logit(1 - p), 0);
 });
+
+// Per entry visits + hits / 1024. Cell 0: 2 of 5 beams end there, cell 1: 1 of 4, exactly a
+// quarter, cell 2: none; gmapping publishes only what is above a quarter as occupied.
+test("a map of counts declares a wall where more than a quarter of its beams end", () => {
+  const evidence = {
+    nReadings: 2,
+    nCells: 3,
+    indptr: Uint32Array.of(0, 2, 3),
+    cell: Uint32Array.of(0, 1, 0),
+    logOdds: Float64Array.of(2 + 1 / 1024, 4 + 1 / 1024, 3 + 1 / 1024),
+    truth: new Uint8Array(3),
+  };
+  const constants = { decisionEps: 1e-9, priorScale: 0.9, declared: 2, hit: 1 / 1024, occupiedAbove: 0.25 };
+  const log = player.newLog(player.countsOfBeams(evidence, constants));
+  const column = player.newColumn(log, new Uint8Array(3), constants);
+  player.setPrior(column, { p_wall: 0.2, p_space: 0.9, uninformative: false, rule: "subtract_prior" });
+  const maps = [0, 1, 2].map((step) => {
+    player.seek(log, step);
+    return [0, 1, 2].map((c) => player.logOddsAt(column, c));
+  });
+  assert.deepEqual(maps, [
+    [0, 0, 0],
+    [-2, 2, 0],
+    [-2, 2, 0],
+  ]);
+  assert.deepEqual(player.beamsOf(log, 0), { hits: 2, visits: 5 });
+  player.seek(log, 1);
+  assert.deepEqual(player.beamsOf(log, 0), { hits: 1, visits: 2 });
+  assert.deepEqual(player.beamsOf(log, 2), { hits: 0, visits: 0 });
+});

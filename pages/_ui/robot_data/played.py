@@ -21,9 +21,9 @@ from occsim.evidence_log import EvidenceTotals
 from occsim.grid import Grid
 from occsim.io.log_run import hits_drawing, map_log, open_log, tour_log
 from occsim.io.replay import pack_log, pack_scene, pack_walls, unpack_log
-from occsim.io.replay_beams import pack_beams
+from occsim.io.replay_beams import pack_beams, pack_counts
 from occsim.io.scans import MetricScans
-from occsim.scan import RANGE_FINDERS
+from occsim.scan import RANGE_FINDERS, beam_counts
 from occsim.sensor import Sensor
 
 
@@ -130,6 +130,16 @@ ROBOT = RANGE_FINDERS["urg-04lx"]
 """What the simulated robot carries."""
 SEED = 1
 """Of the errors of its ranges."""
+
+
+def pack_log_counts(played: PlayedLog) -> bytes:
+    """Return gmapping's counts of a log, packed for the player."""
+    scan_log = played.scans.scan_log
+    return pack_counts(
+        beam_counts(scan_log, played.sensor, played.grid),
+        truth=unpack_mask(b"", played.grid.shape),
+        trajectory=scan_log.trajectory,
+    )
 
 
 def simulated_log(building: Building) -> bytes:

@@ -1,5 +1,6 @@
 """A log of scans, uploaded or simulated, and the map that it gives."""
 
+from dataclasses import replace
 from typing import Any
 
 import streamlit as st
@@ -8,12 +9,17 @@ from occsim import OccsimError, RobotFileError
 from occsim.io import bags
 from occsim.io.timed import is_timed_scans
 from pages._ui import controls, logs, shell, state, uploads, words
-from pages._ui.columns import LOG_COLUMNS
+from pages._ui.choices import CellModel
+from pages._ui.columns import LOG_COLUMNS, Column
 from pages._ui.components.player import map_player
 from pages._ui.logs import LogFile
 from pages._ui.robot_data import downloads
 from pages._ui.robot_data.played import PlayedLog
 
+SHOWN, ONE = "robot_maps", "One"
+COUNTS = replace(LOG_COLUMNS[0], model=CellModel.HITS_VISITS)
+MAPS = {ONE: LOG_COLUMNS, "Beside gmapping's": (*LOG_COLUMNS, COUNTS)}
+"""The maps of a log that can be shown."""
 LOG, POSES, TAKEN = "robot_log", "robot_log_poses", "robot_logs_taken"
 ABOUT = (
     "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log)"
@@ -36,10 +42,10 @@ def show() -> None:
     key = state.ROBOT_KEY
     settings = state.settings()
     identity = f"{log.digest} {logs.options(settings)}"
-    state.open_log_player(identity, len(made.trajectory) // 2, LOG_COLUMNS)
-    state.take_from_player(key)
+    state.open_log_player(identity, len(made.trajectory) // 2, _columns())
+    columns = state.take_from_player(key).columns
     map_player(
-        logs.replay(log, settings),
+        logs.replay(log, settings, columns),
         state.player_document(key),
         key=key,
         held=state.parts_held(key),
@@ -63,6 +69,15 @@ def _controls() -> None:
             st.button("Back to the simulated log", on_click=_forget)
         for name in ("log_cell_m", "usable_range_m"):
             controls.slider(name, width=controls.NARROW_PX)
+        st.segmented_control(
+            "Maps",
+            list(MAPS),
+            required=True,
+            help="gmapping, a mapper that many robots use, counts in each cell how "
+            "many beams end there, of those that end there or pass. More than a "
+            "quarter, and the cell is published as occupied.",
+            **state.bind_view(SHOWN, ONE),
+        )
         with st.popover("More settings"):
             controls.radio("log_behind_hit")
             controls.toggle("log_clear_no_hit")
@@ -81,6 +96,11 @@ def _controls() -> None:
                 _keep_trajectory,
                 "Lines of t x y z qx qy qz qw. Each scan is placed by its time.",
             )
+
+
+def _columns() -> tuple[Column, ...]:
+    """The maps that are shown: one, or gmapping's beside it."""
+    return MAPS[state.view(SHOWN, ONE)]
 
 
 def _use_log(file: Any) -> None:

@@ -14,8 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from occsim import __version__
+from occsim.io.replay_beams import HIT
 from occsim.logodds import DECISION_EPS
 from occsim.prior import PRIOR_SCALE
+from occsim.scan.cell_model import OCCUPIED_ABOVE
+from occsim.sensor import LOG_ODDS_MAX
 from pages._ui.choices import PriorDrawing
 from pages._ui.columns import Column
 from pages._ui.components import SAVING, component, keep_state, packed
@@ -78,6 +81,14 @@ SCRIPTS = (
     "player.js",
 )
 COMPONENT = "map_player"
+CONSTANTS = {
+    "decisionEps": DECISION_EPS,
+    "priorScale": PRIOR_SCALE,
+    "hit": HIT,
+    "occupiedAbove": OCCUPIED_ABOVE,
+    "declared": LOG_ODDS_MAX,
+}
+"""Numbers of the library that the player computes with."""
 
 
 @dataclass(frozen=True)
@@ -191,7 +202,7 @@ def player_data(
         "hasTruth": replay.has_truth,
         "hasPrior": replay.has_prior,
         "paper": replay.paper,
-        "constants": {"decisionEps": DECISION_EPS, "priorScale": PRIOR_SCALE},
+        "constants": CONSTANTS,
         "limits": {name: _limits(name) for name in ("p_wall", "p_space")},
         "speeds": SPEEDS,
         "software": f"occsim {__version__}",

@@ -59,15 +59,17 @@ function aboutWords({ about, unit }, columns) {
   return unit === UNITS.cells && !isOneSize ? `${about}, each of its map's size` : about;
 }
 
-// The blank map rests on the readings and cells of the first map.
+// The blank map rests on the readings and cells of the first map that has log-odds.
+const blankColumn = (columns) => Math.max(0, columns.findIndex(({ log }) => !log.coded));
+
 const blankLabel = (columns) =>
-  columns.every(({ log }) => log === columns[0].log) ? "blank" : `blank as ${LETTERS[0]}`;
+  columns.every(({ log }) => log === columns[0].log) ? "blank" : `blank as ${LETTERS[blankColumn(columns)]}`;
 
 // Of one map both regions, of several the chart's region; the blank map always.
 function linesOf(p, { name, region }) {
   const { colours } = p.header;
   const blank = { ...BLANK_LINE, colour: colours.blank, label: blankLabel(p.columns) };
-  const blankOf = (where) => scoreOf(p.columns[0].blank, where, name);
+  const blankOf = (where) => scoreOf(p.columns[blankColumn(p.columns)].blank, where, name);
   if (!isSeveral(p)) {
     const [column] = p.columns;
     const line = { colour: p.theme.ink, width: 1.75 };

@@ -63,7 +63,7 @@ function showTables(p) {
 
 function showTable(p, { cells, heads, worth }, column) {
   const { step, columns: settings } = p.state;
-  const [{ series, blank }, setting] = [p.columns[column], settings[column]];
+  const [{ series, blank, log }, setting] = [p.columns[column], settings[column]];
   const share = series.coverage[step];
   setText(heads.looked, `looked at (${percent(share).replace(" ", "\u00a0")})`);
   setText(heads.unseen, "not looked at");
@@ -71,10 +71,10 @@ function showTable(p, { cells, heads, worth }, column) {
     for (const region of TABLE_REGIONS) {
       const { text } = UNITS[unit];
       setText(cells[`${region} ${name}`], text(series[region][name][step]));
-      setText(cells[`blank ${region} ${name}`], text(blank[region][name][step]));
+      setText(cells[`blank ${region} ${name}`], log.coded ? DASH : text(blank[region][name][step]));
     }
   }
-  setText(worth, setting.uninformative ? "" : worthWords(series, blank, step));
+  setText(worth, setting.uninformative || log.coded ? "" : worthWords(series, blank, step));
 }
 
 // How many readings without a drawing are as good as the map is now.
@@ -131,8 +131,15 @@ function verdictWords({ header, pin }, column) {
   const c = cellHolding(column.log, ...pin);
   const logOdds = logOddsAt(column, c);
   const verdict = declaresWall(column, logOdds) ? "wall" : "no wall";
+  if (column.log.coded) return countWords(header, column, c, verdict);
   const words = `Free with probability ${probability(pFreeOf(logOdds))}: declared ${verdict}`;
   return header.hasTruth ? `${words}; in truth ${column.log.truth[c] ? "wall" : "free"}` : words;
+}
+
+function countWords({ hasTruth }, { log }, c, verdict) {
+  const { hits, visits } = beamsOf(log, c);
+  const words = `${hits} of ${visits} beams end here: declared ${verdict}`;
+  return hasTruth ? `${words}; in truth ${log.truth[c] ? "wall" : "free"}` : words;
 }
 
 function termCard(column, { term, to, isOff }) {
@@ -144,6 +151,7 @@ function termCard(column, { term, to, isOff }) {
         ["p_free", probability(pFreeOf(to))],
       ],
     ];
+  if (column.log.coded) return [`Scan ${term.reading + 1}`, [["visits / 4 less hits", signed(term.said, 2)]]];
   const facts = [
     ["p_free(reading)", probability(pFreeOf(term.said))],
     ["its log-odds", signed(term.said, 3)],

@@ -4,7 +4,8 @@
 // The words of a header: those that always stand in it, then those that do so only where
 // the maps differ or the header is open.
 const MAIN_WORDS = ["drawing", "pair", "rule"];
-const MORE_WORDS = ["flaw", "behind_hit", "cell_px"];
+const MORE_WORDS = ["flaw", "behind_hit", "cell_px", "model"];
+const WORDS_OF_COUNTS = ["model", "cell_px"]; // counts of beams take no prior
 const WORDS = [...MAIN_WORDS, ...MORE_WORDS];
 const BY_HAND = "hand";
 
@@ -14,6 +15,7 @@ const pairValue = ({ p_wall, p_space, calibrated }) => (calibrated ? "calibrated
 
 // The value that stands for a word of a setting.
 function wordValue(setting, word) {
+  if (countsBeams(setting) && !WORDS_OF_COUNTS.includes(word)) return "none";
   if (word === "drawing") return setting.uninformative ? "none" : setting.prior_drawing;
   if (word === "pair") return setting.uninformative ? "half" : pairValue(setting);
   // Without a drawing its errors make no difference.
@@ -37,7 +39,9 @@ function wordChanges(word, value) {
 const differs = (settings, word) => {
   const values = settings.map((setting) => wordValue(setting, word));
   // A map without a drawing has neither pair nor errors of one.
-  const known = values.filter((value) => value !== "half" && (value !== "none" || word === "drawing"));
+  const isKnown = (value, i) =>
+    value !== "half" && (value !== "none" || (word === "drawing" && !countsBeams(settings[i])));
+  const known = values.filter(isKnown);
   return known.some((value) => value !== known[0]);
 };
 
@@ -52,12 +56,14 @@ function wordLabel(words, setting, word) {
 
 // What all maps share, in words.
 function agreement(words, settings, seen = WORDS) {
-  const isBlank = ({ uninformative }) => uninformative;
+  const isBlank = (setting) => setting.uninformative || countsBeams(setting);
   // A map without a drawing shares no pair; of errors, only one with a drawing tells.
   const isShared = (word) => !differs(settings, word) && !(word === "pair" && settings.some(isBlank));
-  const same = seen.filter(isShared);
-  const first = settings.find((setting) => !isBlank(setting)) ?? settings[0];
-  const labels = same.map((word) => wordLabel(words, first, word));
+  const said = settings.every(countsBeams) ? WORDS_OF_COUNTS : WORDS.filter((word) => word !== "model");
+  const same = seen.filter((word) => said.includes(word) && isShared(word));
+  const first = settings.find((setting) => !isBlank(setting)) ?? settings.find((one) => !countsBeams(one)) ?? settings[0];
+  const told = same.filter((word) => word === "drawing" || wordValue(first, word) !== "none");
+  const labels = told.map((word) => wordLabel(words, first, word));
   const readings = same.includes("behind_hit") && same.includes("cell_px") ? "readings" : "tour";
   return `Same building and ${readings}${labels.length ? `: ${labels.join(", ")}` : ""}.`;
 }
@@ -119,7 +125,8 @@ function showHeaders(p) {
       const word = box.dataset.for;
       const isBold = differs(settings, word);
       const isMain = MAIN_WORDS.includes(word) && !(word === "pair" && setting.uninformative);
-      box.hidden = !seen.includes(word) || !(isMain || isBold || p.open === i);
+      const fits = !countsBeams(setting) || WORDS_OF_COUNTS.includes(word);
+      box.hidden = !fits || !seen.includes(word) || !(isMain || isBold || p.open === i);
       box.lastChild.disabled = isWordLocked(p, word);
       box.classList.toggle("differs", isBold);
       setText(box.firstChild, wordLabel(words, setting, word));
@@ -144,7 +151,7 @@ function fillPairs(p, select, setting) {
 
 function showHand(p, header, setting, i) {
   const hand = header.querySelector(".hand");
-  hand.hidden = !p.byHand[i] || setting.uninformative;
+  hand.hidden = !p.byHand[i] || setting.uninformative || countsBeams(setting);
   for (const input of hand.querySelectorAll("input")) {
     input.value = setting[input.dataset.hand];
     input.disabled = isLocked(p, input.dataset.hand);

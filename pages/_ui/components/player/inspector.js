@@ -110,12 +110,17 @@ function cellFacts({ header }, column, c) {
   const known = [];
   if (header.hasPrior) known.push(["class", column.isWall[c] ? "wall cell" : "space cell"]);
   if (header.hasTruth) known.push(["truth", truth[c] ? "wall" : "free"]);
+  const declared = ["declared", declaresWall(column, logOdds) ? "wall" : "no wall"];
+  if (column.log.coded) {
+    const { hits, visits } = beamsOf(column.log, c);
+    return [...known, ["beams that end here", String(hits)], ["or pass", String(visits - hits)], declared];
+  }
   return [
     ...known,
     ["prior p_free", column.pFreePrior[column.isWall[c]].toFixed(3)],
     ["readings k", String(counts[c])],
     ["log-odds l", signed(logOdds, 3)],
-    ["declared", declaresWall(column, logOdds) ? "wall" : "no wall"],
+    declared,
     ["p_free", probability(pFreeOf(logOdds))],
     ["p_occupied", probability(pFreeOf(-logOdds))],
   ];

@@ -13,9 +13,9 @@ function newLog(evidence) {
   return { ...evidence, ...linkEntries(evidence), sums, counts, step: 0 };
 }
 
-function newColumn(log, isWall, { decisionEps, priorScale }) {
+function newColumn(log, isWall, { decisionEps, priorScale, declared }) {
   const prior = { pFreePrior: [0.5, 0.5], logOddsPrior: [0, 0], once: true };
-  return { log, isWall, ...prior, decisionEps, priorScale };
+  return { log, isWall, ...prior, decisionEps, priorScale, declared };
 }
 
 // Per entry, the state of its cell before it: the sum, the number and the last entry.
@@ -37,6 +37,25 @@ function linkEntries({ cell, logOdds, nCells }) {
   return { before, rank, previous, last };
 }
 
+// gmapping's cell model: an entry holds visits and hits of a scan. Their difference, visits
+// weighted, adds up like log-odds, and a wall is declared where it falls below 0.
+function countsOfBeams(evidence, { hit, occupiedAbove }) {
+  const coded = evidence.logOdds;
+  const logOdds = coded.map((value) => occupiedAbove * Math.floor(value) - (value % 1) / hit);
+  return { ...evidence, coded, hit, logOdds };
+}
+
+// Hits and visits of a cell up to a step.
+function beamsOf(log, c) {
+  let [hits, visits] = [0, 0];
+  for (let e = log.last[c]; e >= 0; e = log.previous[e]) {
+    if (e >= log.indptr[log.step]) continue;
+    hits += (log.coded[e] % 1) / log.hit;
+    visits += Math.floor(log.coded[e]);
+  }
+  return { hits, visits };
+}
+
 // By class: the value of space cells, then that of wall cells.
 function setPrior(column, setting) {
   column.pFreePrior = pairOf(column, setting);
@@ -45,7 +64,7 @@ function setPrior(column, setting) {
 }
 
 function pairOf(column, { p_wall, p_space, uninformative, calibrated }) {
-  if (uninformative) return [0.5, 0.5];
+  if (uninformative || column.log.coded) return [0.5, 0.5];
   if (calibrated) return calibratedPair(column);
   return [column.priorScale * p_space, column.priorScale * p_wall];
 }
@@ -85,6 +104,8 @@ const priorOf = (column, c) => column.logOddsPrior[column.isWall[c]];
 
 // A cell's log-odds from the sum and the number of its readings.
 function fused(column, c, sum, k) {
+  // Counts are published as three classes: free, occupied, unknown.
+  if (column.log.coded) return k === 0 ? 0 : sum < -column.decisionEps ? -column.declared : column.declared;
   return sum + (column.once ? 1 : 1 - k) * priorOf(column, c);
 }
 
@@ -119,7 +140,8 @@ function historyOf(column, c) {
   const terms = [];
   for (let e = log.last[c]; e >= 0; e = log.previous[e]) {
     const said = log.logOdds[e];
-    const total = fused(column, c, log.before[e] + said, log.rank[e] + 1);
+    const sum = log.before[e] + said;
+    const total = log.coded ? sum : fused(column, c, sum, log.rank[e] + 1);
     terms.push({ reading: readingOf(log, e), said, off, added: said + off, total });
   }
   return { prior, terms: terms.reverse() };

@@ -51,7 +51,10 @@ function learnParts(p, { base, parts }) {
 
 const partNamed = (p, name) => held.get(p.ids.get(name));
 
-const logName = ({ behind_hit, cell_px }) => `log ${behind_hit} ${cell_px}`;
+const countsBeams = ({ model }) => model === "hits_visits";
+
+const logName = (setting) =>
+  `log ${countsBeams(setting) ? "counts" : setting.behind_hit} ${setting.cell_px}`;
 
 const wallsName = ({ prior_drawing, flaw, cell_px }) => `walls ${prior_drawing} ${flaw} ${cell_px}`;
 
@@ -62,7 +65,10 @@ const isHeld = (p, setting) => namesOf(setting).every((name) => partNamed(p, nam
 // The log of a column's sensor reading and cell size, at the step of all others.
 function logOf(p, setting) {
   const id = p.ids.get(logName(setting));
-  if (!p.logs.has(id)) p.logs.set(id, newLog(held.get(id)));
+  if (!p.logs.has(id)) {
+    const evidence = held.get(id);
+    p.logs.set(id, newLog(countsBeams(setting) ? countsOfBeams(evidence, p.header.constants) : evidence));
+  }
   const log = p.logs.get(id);
   seek(log, p.state.step);
   return log;

@@ -6,7 +6,7 @@ from enum import Enum
 from occsim import BehindHit, UpdateRule
 from occsim.prior import SOURCE_PAIR
 from pages._ui import palette
-from pages._ui.choices import CHOICES, Flaw, Overlay, PriorDrawing
+from pages._ui.choices import CHOICES, CellModel, Flaw, Overlay, PriorDrawing
 from pages._ui.columns import MAX_COLUMNS
 from pages._ui.course import COURSE
 from pages._ui.glossary import meaning
@@ -42,6 +42,7 @@ WORD_NAMES = {
     "flaw": "The drawing's errors",
     "behind_hit": "Behind a hit",
     "cell_px": "Cell size",
+    "model": "Cell model",
 }
 RULES = {
     UpdateRule.PRIOR_ONCE: "once",
@@ -55,6 +56,10 @@ DRAWINGS = {
     PriorDrawing.OWN: "this drawing",
     PriorDrawing.MIRRORED: "its mirror image",
     PriorDrawing.EMPTY: "an empty sheet",
+}
+MODELS = {
+    CellModel.LOG_ODDS: "log-odds",
+    CellModel.HITS_VISITS: "hits by visits (gmapping)",
 }
 NO_DRAWING = {"value": "none", "label": "no drawing"}
 CELL_SIZES_PX = (1, 2, 3, 5, 10)
@@ -126,6 +131,7 @@ def _header_words(drawings: Sequence[PriorDrawing]) -> dict[str, list[dict[str, 
         "flaw": [_option(one, CHOICES[one]) for one in Flaw],
         "behind_hit": [_option(one, label) for one, label in BEHIND.items()],
         "cell_px": [_option(size, f"{size} px cells") for size in CELL_SIZES_PX],
+        "model": [_option(one, label) for one, label in MODELS.items()],
     }
 
 
