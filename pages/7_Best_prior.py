@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages._ui import compute, controls, shell, state
-from pages._ui.priors import answers, guiding
+from pages._ui.priors import answers, guiding, triptych
 
 with shell.page("pages/7_Best_prior.py") as here:
     shell.heading(here)
@@ -35,6 +35,7 @@ with shell.page("pages/7_Best_prior.py") as here:
         with column:
             guiding.answer(run, one)
     st.markdown(guiding.scores_table(run, given), unsafe_allow_html=True)
+    triptych.triptych(run)
     guiding.head(6, "Hand over the prior map")
     controls.segments("handover")
     guiding.hand_over(run, answers.handed_over(given))

@@ -199,8 +199,8 @@ COURSE = (
         "taken off at every reading, will the best pair be another one?",
         options={
             "same": "no, the same",
-            "agrees": "yes, but it agrees with the drawing",
-            "negative": "yes, the drawing's opposite",
+            "agrees": "yes, one that agrees with it",
+            "negative": "yes, its opposite",
         },
         further=("pages/5_Sweep_the_priors.py", "pages/7_Best_prior.py"),
     ),

@@ -119,3 +119,8 @@ def _shown(text: str) -> str:
     """A text as HTML; its quantities with subscripts."""
     plain = html.escape(text.replace("*", ""))
     return _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", plain)
+
+
+if __name__ == "__main__":
+    for one in PLANS:
+        (FOLDER / f"worksheet_{one}.html").write_text(worksheet(one), encoding="utf-8")

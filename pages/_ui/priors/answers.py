@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from occsim import Prior, UpdateRule
+from occsim import Prior, Region, UpdateRule
 from occsim.priors import recommend
 from pages._ui import compute, state
 from pages._ui.choices import Handover
@@ -52,9 +52,11 @@ def all_answers(run: Run) -> list[Answer]:
     ]
 
 
-def best_f2(run: Run, rule: UpdateRule) -> Prior | None:
-    """The pair with the highest F2 within set C of a rule; None if set C is empty."""
-    front = run.mapped.front(rule)
+def best_f2(
+    run: Run, rule: UpdateRule, region: Region = Region.EXPLORED
+) -> Prior | None:
+    """The pair with the highest F2 within set C of a front; None if that is empty."""
+    front = run.mapped.front(rule, region)
     index = recommend(front, state.settings().min_recall)
     if index is None:
         return None
