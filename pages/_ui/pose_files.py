@@ -18,6 +18,8 @@ CORNER = {"x": "frame_x_m", "y": "frame_y_m"}
 USUAL_SCALE = 0.05
 """Metres per pixel of most maps of robots."""
 FARTHEST_M = 1e6
+FIELD_PX = 140
+"""Width of a number, px: two stand side by side in a narrow column."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,19 +108,20 @@ def _ask_frame(is_placed: bool) -> None:
     with st.container(horizontal=True):
         for axis, name in CORNER.items():
             st.number_input(
-                f"Lower left corner, {axis} (m)",
+                f"Corner {axis} (m)",
                 -FARTHEST_M,
                 FARTHEST_M,
                 step=0.5,
-                width=200,
+                width=FIELD_PX,
+                help="Of the drawing's lower left corner in the frame of the file.",
                 **state.bind_view(name, 0.0),
             )
         st.number_input(
-            "Turned to the left (degrees)",
+            "Turned (degrees)",
             -180.0,
             180.0,
-            width=200,
-            help="By how much the drawing is turned about that corner.",
+            width=FIELD_PX,
+            help="By how much the drawing is turned to the left about that corner.",
             **state.bind_view(TURN, 0.0),
         )
     st.button("Place the poses", on_click=state.edit, args=(_place,))

@@ -42,37 +42,41 @@ def restarted(window, port, tmp_path, query, before=lambda: None):
     return running_app(tmp_path / "second.log", port=port)
 
 
-def test_a_restarted_server_is_noticed_and_a_reload_brings_the_settings_back(
-    window, tmp_path
-):
+def came_back(window):
+    """The page has run again, in a session of the new server."""
+    window.wait_for_selector("[data-test-connection-state=CONNECTED]")
+    window.locator(CUT).get_by_text("is back").wait_for()
+    settled(window)
+
+
+def test_a_restarted_server_is_noticed_and_the_next_move_is_kept(window, tmp_path):
+    """The session of the new server opens by the address as it is now, before the
+    student moves."""
+
+    def move(to: int) -> None:
+        slider = window.get_by_role("slider", name="Range")
+        slider.focus()
+        slider.press("ArrowRight")
+        window.wait_for_url(f"**range_px={to}**")
+
+    query = "?drawing=d&range_px=33"
+    with restarted(window, free_port(), tmp_path, query, lambda: move(34)):
+        came_back(window)
+        assert range_px(window) == "34"
+        move(35)
+        assert "drawing=d" in window.url
+        assert range_px(window) == "35"
+        window.locator(CUT).wait_for(state="detached")
+
+
+def test_a_reload_after_a_restart_brings_the_settings_back(window, tmp_path):
     with restarted(window, free_port(), tmp_path, "?drawing=d&range_px=33"):
-        # The client connects again by itself, to a session that knows nothing: what
-        # happened must still be said.
-        window.wait_for_selector("[data-test-connection-state=CONNECTED]")
-        window.wait_for_timeout(1000)
-        assert window.locator(CUT).is_visible()
+        came_back(window)
         window.get_by_role("button", name="Reload").click()
         window.wait_for_selector(PLAYER)
         assert window.locator(CUT).count() == 0
         assert "range_px=33" in window.url
         assert range_px(window) == "33"
-
-
-def test_a_restart_loses_one_move_and_no_setting(window, tmp_path):
-    """The first event reaches a session that does not know the slider yet."""
-    with restarted(window, free_port(), tmp_path, "?drawing=d&range_px=33"):
-        window.wait_for_selector("[data-test-connection-state=CONNECTED]")
-        slider = window.get_by_role("slider", name="Range")
-        slider.focus()
-        slider.press("ArrowRight")
-        settled(window)
-        assert range_px(window) == "33"
-        assert window.locator(CUT).is_visible()
-        slider.focus()
-        slider.press("ArrowRight")
-        window.wait_for_url("**range_px=34**")
-        assert "drawing=d" in window.url
-        window.locator(CUT).wait_for(state="detached")
 
 
 def test_a_building_that_a_restarted_server_no_longer_has_is_told(window, tmp_path):
@@ -84,7 +88,5 @@ def test_a_building_that_a_restarted_server_no_longer_has_is_told(window, tmp_pa
         window.wait_for_url("**work=**")
 
     with restarted(window, free_port(), tmp_path, "?range_px=33", upload):
-        window.wait_for_selector("[data-test-connection-state=CONNECTED]")
-        window.get_by_role("button", name="Reload").click()
         window.get_by_text("no longer on this server").wait_for()
         window.wait_for_selector(PLAYER)

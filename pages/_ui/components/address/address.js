@@ -82,6 +82,7 @@ function heedConnection() {
   app.occsimWatched = new MutationObserver(() => {
     const state = app.dataset.testConnectionState;
     if (state && state !== "CONNECTED") sayCut();
+    else if (document.querySelector(".occsim-cut")) goOn();
   });
   app.occsimWatched.observe(app, { attributeFilter: ["data-test-connection-state"] });
 }
@@ -96,11 +97,25 @@ function sayCut() {
   button.style.cssText = "min-height:2.5rem;padding:0 1rem";
   button.onclick = () => window.location.reload();
   said.append(
-    "The connection to the server was cut. Reload the page to go on: the settings come back, " +
-      "and a building of your own if the server still has it.",
+    element(
+      "span",
+      {},
+      "The connection to the server was cut. What you change now is lost. The page goes on when " +
+        "the server is back.",
+    ),
     button,
   );
   document.body.append(said);
+}
+
+// A server that was restarted knows nothing of this page: the first event opens a session,
+// by the query that Streamlit's client read when it was loaded, and the move that it
+// carries is lost. So the first event is none of the student's, and has today's query.
+function goOn() {
+  document.querySelector(".occsim-cut span").textContent =
+    "The connection to the server was cut and is back. The settings are as they were; the steps " +
+    "to undo may be lost, and a building of your own if the server was restarted.";
+  window.dispatchEvent(new PopStateEvent("popstate", { state: window.history.state }));
 }
 
 async function copy(said, note) {
