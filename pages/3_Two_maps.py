@@ -7,6 +7,7 @@ from pages._ui import (
     controls,
     lessons,
     limits,
+    noise_lesson,
     replays,
     sensing,
     shell,
@@ -61,3 +62,4 @@ with shell.page(PATH) as here:
     )
     with st.container(key="map_words"):
         lessons.beside(PATH, number=5)
+        noise_lesson.section()
