@@ -3,12 +3,14 @@
 pyoctomap is no requirement, because it has wheels for few platforms: where it is not
 installed (``pip install pyoctomap``) it is reported as absent. Each peer gets the scans
 in the form that suits it, made beforehand: pyoctomap clouds of points, the line-walker
-cells. Times are of all readings, entered into an empty map.
+cells. Times are of all readings, entered into an empty map. They are processor times,
+which depend least on what else the machine does.
 """
 
 import importlib
 import importlib.util
 import math
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -54,6 +56,11 @@ class Scans:
     @property
     def is_full_turn(self) -> bool:
         return self.sensor.fov_rad > 6.0
+
+
+def cpu_ms(call: Callable[[], object], repeats: int) -> float:
+    """Return the median processor time of a call, ms."""
+    return median_ms(call, repeats, time.process_time)
 
 
 def recorded(name: str, work: Workload, sensor: Sensor, n_beams: int, cell_px: int):
@@ -177,19 +184,17 @@ def scan_rows(scans: Scans) -> Iterator[Row]:
     peers = {}
     insert = octomap(scans)
     if insert is not None:
-        peers["pyoctomap"] = median_ms(insert, 5)
+        peers["pyoctomap"] = cpu_ms(insert, 5)
     scale = N_READINGS / NAIVE_READINGS
-    naive = median_ms(ray_casting(scans, NAIVE_READINGS), 1)
+    naive = cpu_ms(ray_casting(scans, NAIVE_READINGS), 1)
     peers["PythonRobotics' way (scaled)"] = scale * naive
     aim = FULL_TURN_FACTOR if scans.is_full_turn else CONE_FACTOR
 
     def at_once():
         evidence_from_scans(scans.log, scans.sensor, scans.grid)
 
-    yield compared(
-        f"evidence_from_scans {scans.name}", median_ms(at_once, 5), peers, aim
-    )
-    one_by_one = median_ms(entered(scans), 5)
+    yield compared(f"evidence_from_scans {scans.name}", cpu_ms(at_once, 5), peers, aim)
+    one_by_one = cpu_ms(entered(scans), 5)
     yield compared(f"Mapper.update {scans.name}", one_by_one, peers, aim)
 
 
@@ -203,7 +208,7 @@ def rows() -> Iterator[Row]:
             def exact(work=work, grid=grid):
                 collect_evidence(work.world, work.trajectory, work.sensor, grid)
 
-            ms, c_ms = median_ms(exact, 5), median_ms(lambda w=work: walk_in_c(w), 5)
+            ms, c_ms = cpu_ms(exact, 5), cpu_ms(lambda w=work: walk_in_c(w), 5)
             beside = f"C line-walker {c_ms:,.0f} ms, {c_ms / ms:.2f}x"
             yield Row(f"collect_evidence {name}", f"{ms:.1f} ms", "", beside)
         yield from scan_rows(
