@@ -7,7 +7,7 @@ import pytest
 
 from tests.browser.running import no_complaint, running_app
 from tests.load import machine, students
-from tests.load.__main__ import faults, table
+from tests.load.__main__ import faults, table, tracebacks
 from tests.load.client import client_at
 from tests.load.students import ACTIONS, Round
 
@@ -70,3 +70,10 @@ def test_each_aim_that_is_missed_is_said(seconds, memory_mb, said):
     found = faults(rounds_of(seconds), memory_mb, n_clients=10)
     assert len(found) == len(said)
     assert all(a.startswith(b) for a, b in zip(found, said, strict=True))
+
+
+def test_a_traceback_in_the_log_is_a_fault():
+    assert tracebacks("started\nstopping\n") == []
+    assert tracebacks("started\nTraceback (most\n  line\n") == [
+        "Traceback (most\n  line\n"
+    ]

@@ -1,7 +1,6 @@
-"""A building: the drawing with everything that is needed to map it."""
+"""The class of buildings, and the tour that each opens with."""
 
 import hashlib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,20 +9,18 @@ import numpy as np
 from occsim._types import BoolArray
 from occsim.corrections import Corrections
 from occsim.errors import DrawingError, ParameterError
-from occsim.imaging import MAX_SIDE_PX, Drawing
+from occsim.imaging import Drawing
 from occsim.imaging.transform import Transform
 from occsim.sensor import Sensor
-from occsim.tour import default_tour, random_poses
+from occsim.tour import default_tour
 from occsim.trajectory import (
-    HeadingMode,
     Trajectory,
     drop_poses,
     inside_walls,
     outside_drawing,
-    resample,
 )
-from occsim.walls import WallDetection, WallParams, detect_walls, propose_scale
-from occsim.world import World, world_from_image
+from occsim.walls import WallParams, detect_walls
+from occsim.world import World
 
 TOUR_READINGS = 1000
 """Most readings in a drawing's first tour: a longer replay takes long to watch."""
@@ -239,7 +236,7 @@ class Building:
         )
         if self.trajectory is not self.tour:
             return moved
-        tour = _first_tour(moved.world, moved.sensor)
+        tour = first_tour(moved.world, moved.sensor)
         return replace(moved, found=moved.walls_found, trajectory=tour, tour=tour)
 
 
@@ -259,185 +256,6 @@ def _check_size(what: str, got: tuple[int, ...], shape: tuple[int, int]) -> None
         )
 
 
-def building_from_drawing(
-    drawing: Drawing,
-    sensor: Sensor | None = None,
-    params: WallParams | None = None,
-    *,
-    working_px: int = MAX_SIDE_PX,
-) -> Building:
-    """Return a building from a drawing alone, ready to be mapped.
-
-    The walls found serve as the world until a ground truth is given, and the
-    trajectory is a default tour of the free space.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        What the architect gave.
-    sensor : Sensor, optional
-        The tour shows the building to it, in `TOUR_READINGS` at most. By default its
-        range is the length of a door that is proposed for the drawing, as in the
-        source; see `occsim.walls.propose_scale`.
-    params : WallParams, optional
-        Settings of the detection; automatic by default.
-    working_px : int, optional
-        Longer side to which a larger drawing is scaled down, px; by default it is not.
-
-    Returns
-    -------
-    Building
-        Its `about` states the size before scaling down.
-
-    Raises
-    ------
-    TrajectoryError
-        Where the walls leave no free space to drive in.
-
-    Examples
-    --------
-    >>> from occsim import load_sample
-    >>> from occsim.building import building_from_drawing
-    >>> building = building_from_drawing(load_sample("d").drawing)
-    >>> len(building.trajectory) > 10
-    True
-    """
-    height, width = drawing.shape
-    drawing = Transform.fit(drawing.shape, working_px).drawing(drawing)
-    is_smaller = drawing.shape != (height, width)
-    params = params or WallParams()
-    found = detect_walls(drawing, params)
-    sensor = sensor or proposed_sensor(found)
-    tour = _first_tour(World(occupied=found.mask), sensor)
-    return Building(
-        drawing=drawing,
-        found=found.mask,
-        trajectory=tour,
-        tour=tour,
-        wall_params=params,
-        sensor=sensor,
-        title=drawing.name,
-        about=f"Scaled down from {width} × {height} px." if is_smaller else "",
-    )
-
-
-def proposed_sensor(found: WallDetection) -> Sensor:
-    """Return the sensor whose range is the length of a door that is proposed.
-
-    Parameters
-    ----------
-    found : WallDetection
-        The walls of a drawing.
-
-    Returns
-    -------
-    Sensor
-        The default one where no door is proposed; see `occsim.walls.propose_scale`.
-    """
-    proposal = propose_scale(found)
-    return Sensor() if proposal is None else Sensor(range_px=proposal.door_px)
-
-
-def truth_from_image(image: Drawing, shape: tuple[int, int]) -> BoolArray:
-    """Return a ground truth from its picture: black is wall, white is free.
-
-    Parameters
-    ----------
-    image : Drawing
-        Of the drawing's size, or of the size that the drawing had before it was scaled
-        down to its working size.
-    shape : tuple of int
-        Height and width of the drawing, px.
-
-    Returns
-    -------
-    ndarray of bool
-        Scaling down keeps every wall. An image of any other size is returned at its own
-        size, which `Building` refuses.
-    """
-    return mask_of_size(world_from_image(image).occupied, shape)
-
-
-def mask_of_size(mask: BoolArray, shape: tuple[int, int]) -> BoolArray:
-    """Return a mask scaled down to a drawing's size, if it is one of that drawing.
-
-    Parameters
-    ----------
-    mask : ndarray of bool
-        Of the drawing's size, or of that which it had before it was scaled down.
-    shape : tuple of int
-        Height and width of the drawing, px.
-
-    Returns
-    -------
-    ndarray of bool
-        As it is where it has any other size.
-    """
-    height, width = mask.shape
-    fit = Transform.fit((height, width), max(shape))
-    return fit.mask(mask) if fit.new_shape == shape else mask
-
-
-def _first_tour(world: World, sensor: Sensor) -> Trajectory:
+def first_tour(world: World, sensor: Sensor) -> Trajectory:
+    """Return the tour that a drawing opens with."""
     return default_tour(world, sensor, max_readings=TOUR_READINGS)
-
-
-def random_trajectory(world: World, n: int, seed: int) -> Trajectory:
-    """Return random poses in free space, the same ones for the same seed.
-
-    Parameters
-    ----------
-    world : World
-        What the robot stands in.
-    n : int
-        Poses, 1 or more.
-    seed : int
-        Seed of the random choice, 0 or more.
-
-    Returns
-    -------
-    Trajectory
-        With the four cardinal headings.
-
-    Raises
-    ------
-    TrajectoryError
-        Where there is no free space.
-    """
-    return random_poses(world, n, rng=np.random.default_rng(seed))
-
-
-def sketched_trajectory(
-    sketch: Sequence[tuple[float, float, bool]],
-    step_px: float,
-    heading_mode: HeadingMode = HeadingMode.ALONG,
-    turn: bool = False,
-) -> Trajectory:
-    """Return the readings along a sketch.
-
-    Parameters
-    ----------
-    sketch : sequence of (float, float, bool)
-        As in `Building`; at least one corner.
-    step_px : float
-        Between readings, px.
-    heading_mode : HeadingMode, default HeadingMode.ALONG
-        Where the robot looks.
-    turn : bool, default False
-        Whether it turns on the spot at waypoints set by hand.
-
-    Returns
-    -------
-    Trajectory
-
-    Raises
-    ------
-    TrajectoryError, ParameterError
-        As `occsim.resample` does.
-    """
-    return resample(
-        [(x, y) for x, y, _ in sketch],
-        step_px,
-        heading_mode=heading_mode,
-        turn_at_waypoints=[turn and is_waypoint for *_, is_waypoint in sketch],
-    )
