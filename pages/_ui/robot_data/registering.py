@@ -103,7 +103,7 @@ def _lay(log: LogFile, made: PlayedLog) -> None:
             partial(_map_document, made, laying),
             _map_paper(log, made),
         )
-    _words()
+    _words(is_simulated=log.is_simulated)
 
 
 def _board(
@@ -321,7 +321,7 @@ def _said(column: Column) -> str:
     return "drawing, counted once" if once else "drawing, taken off at every reading"
 
 
-def _words() -> None:
+def _words(*, is_simulated: bool) -> None:
     with st.container(key="map_words"):
         see, predict, why = st.columns(3, gap="large")
     with see:
@@ -330,17 +330,20 @@ def _words() -> None:
             "pairs of points give the scale, the turn and the shift."
         )
     with predict:
+        missed = "Set the points half a metre off, on purpose."
+        if is_simulated:
+            missed = "The points were set by a hand that missed by half a metre."
         st.markdown(
-            "**Predict.** The points were set by a hand that missed by half a metre. "
-            "Will *Refine* find the place? And what if you set them two metres off?"
+            f"**Predict.** {missed} Will *Refine* find the place? And what if you set "
+            "them two metres off?"
         )
         with st.expander("And then?"):
             st.markdown(
-                "From where this page opens, 1.1 m off at the worst corner, it comes "
-                "to within 10 cm at all corners of all five reference drawings, and "
-                "the drawing then predicts held-out scans better on all five (*Map "
-                "with it*). From far away it may settle where other walls happen to "
-                "match."
+                "From where it opens with a simulated log, 1.1 m off at the worst "
+                "corner, it comes to within 10 cm at all corners of all five reference "
+                "drawings, and the drawing then predicts held-out scans better on all "
+                "five (*Map with it*). From far away it may settle where other walls "
+                "happen to match."
             )
     with why:
         st.markdown(
