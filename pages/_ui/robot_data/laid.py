@@ -25,6 +25,7 @@ from occsim.io.metric import MetricFrame, poses_to_image, poses_to_metric
 from occsim.io.replay import pack_walls
 from occsim.prior import Prior, prior_from_cells
 from pages._ui import compute
+from pages._ui.choices import CellModel
 from pages._ui.columns import FLAWS, Column
 from pages._ui.components.board import BoardPoint
 from pages._ui.components.player import Part
@@ -147,7 +148,7 @@ def parts(walls: Walls, columns: Sequence[Column]) -> tuple[Part, ...]:
 
 
 def held_out(log_key: str, made: PlayedLog, walls: Walls, column: Column) -> float:
-    """Bits per cell of one map on scans that were held out; NaN for too few scans."""
+    """Bits per cell of one map on scans held out; NaN where it cannot be said."""
     return _held_out(log_key, walls.digest, column, made, walls)
 
 
@@ -156,7 +157,7 @@ def _held_out(
     log_key: str, walls_digest: str, column: Column, _made: PlayedLog, _walls: Walls
 ) -> float:
     n_scans = len(_made.trajectory)
-    if n_scans < N_FOLDS:
+    if n_scans < N_FOLDS or column.model is CellModel.HITS_VISITS:
         return float("nan")
     prior = Prior(p_wall=column.p_wall, p_space=column.p_space)
     if column.uninformative:

@@ -9,7 +9,7 @@ import streamlit as st
 
 from occsim import Corrections, Registration
 from pages._ui import controls, logs, shell, state, uploads, words
-from pages._ui.choices import PriorDrawing
+from pages._ui.choices import CellModel, PriorDrawing
 from pages._ui.columns import DRAWN_COLUMNS, Column
 from pages._ui.components.board import BoardDocument, BoardMode
 from pages._ui.components.player import map_player
@@ -275,7 +275,7 @@ def _map(log: LogFile, made: PlayedLog) -> None:
     key, settings = state.ROBOT_KEY, state.settings()
     state.open_log_player(_key(log), len(made.trajectory) // 2, DRAWN_COLUMNS)
     columns = state.take_from_player(key).columns
-    plain = logs.replay(log, settings)
+    plain = logs.replay(log, settings, columns)
     parts = [part for part in plain.parts if part.kind != "walls"]
     map_player(
         replace(
@@ -315,6 +315,8 @@ def _bits(
 
 
 def _said(column: Column) -> str:
+    if column.model is CellModel.HITS_VISITS:
+        return "gmapping's, no probabilities"
     if column.uninformative:
         return "no drawing"
     once = column.rule.value == "prior_once"
