@@ -3,9 +3,9 @@
 import streamlit as st
 
 from pages._ui import shell, state
-from pages._ui.robot_data import SECTIONS, ros, scans
+from pages._ui.robot_data import SECTIONS, registering, ros, scans
 
-SHOW = dict(zip(SECTIONS, (scans.show, ros.show), strict=True))
+SHOW = dict(zip(SECTIONS, (scans.show, registering.show, ros.show), strict=True))
 
 with shell.page(state.ROBOT_PATH) as here:
     shell.heading(here)

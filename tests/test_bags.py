@@ -244,7 +244,7 @@ def test_a_damaged_bag_is_refused_in_a_sentence(tmp_path, suffix):
 
 
 def test_a_file_that_is_no_bag_and_none_at_all(tmp_path):
-    with pytest.raises(RobotFileError, match="is no bag of ROS"):
+    with pytest.raises(RobotFileError, match="is none of ROS"):
         bags.load(b"FLASER 3 1 1 1")
     with pytest.raises(RobotFileError, match="cannot be opened"):
         bags.load(tmp_path / "none.bag")

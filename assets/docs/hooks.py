@@ -35,6 +35,8 @@ MODULES = {
     "occsim.building": ("building_from_drawing",),
     "occsim.io.ros_map": ("RosMap", "MapMode", "load", "dump", "save"),
     "occsim.io.carmen": ("load", "CarmenLog", "PoseSource"),
+    "occsim.io.bags": ("load", "BagLog", "PoseSource"),
+    "occsim.io.timed": ("load", "TimedScans"),
     "occsim.io.scans": ("metric_scans", "MetricScans", "dump", "load"),
     "occsim.io.metric": ("MetricFrame", "poses_to_image", "poses_to_metric"),
     "occsim.io.trajectories": ("read_trajectory_table", "TrajectoryTable"),

@@ -33,7 +33,7 @@ _ZIP, _BOM = b"PK\x03\x04", b"\xef\xbb\xbf"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedScans(MetricScans):
-    """Scans that were placed by their times, on a map of their own.
+    r"""Scans that were placed by their times, on a map of their own.
 
     Parameters
     ----------
@@ -43,6 +43,13 @@ class TimedScans(MetricScans):
         When each scan was taken.
     n_left_out : int
         Scans before the first pose or after the last.
+
+    Examples
+    --------
+    >>> from occsim.io import timed
+    >>> poses = b"0 0 0 0 0 0 0 1\n10 5 0 0 0 0 0 1\n"
+    >>> timed.load(poses, b"time_s,-0.1,0.1\n4,3.0,inf\n99,3.0,inf\n").n_left_out
+    1
     """
 
     times_s: FloatArray

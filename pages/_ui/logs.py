@@ -9,6 +9,7 @@ from pages._ui import compute
 from pages._ui.choices import CellModel
 from pages._ui.columns import LOG_COLUMNS, Column
 from pages._ui.components.player import Part, Replay
+from pages._ui.robot_data import files
 from pages._ui.robot_data.played import (
     LogOptions,
     PlayedLog,
@@ -74,6 +75,18 @@ def _played(
 def _counts(digest: str, given: LogOptions, _made: PlayedLog) -> bytes:
     with compute.core():
         return WORKER.call(pack_log_counts, _made)
+
+
+def picture(log: LogFile, settings: Settings) -> bytes:
+    """The map without a drawing, to draw on."""
+    return _picture(log.digest, options(settings), log)
+
+
+@shared()
+def _picture(digest: str, given: LogOptions, _log: LogFile) -> bytes:
+    made = _played(digest, given, _log.data, _log.trajectory)
+    with compute.core():
+        return files.picture(made.blank_map, made.scans.frame)
 
 
 def simulated(building: Building) -> LogFile:

@@ -28,7 +28,14 @@ ARRAYS = {
 
 
 class PoseSource(Enum):
-    """What says where the scans of a bag were taken."""
+    """What says where the scans of a bag were taken.
+
+    Examples
+    --------
+    >>> from occsim.io.bags import PoseSource
+    >>> PoseSource("odometry")
+    <PoseSource.ODOMETRY: 'odometry'>
+    """
 
     AUTO = "auto"
     """Transforms where they lead to the range finder and any of them moves, else

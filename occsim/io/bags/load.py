@@ -44,6 +44,13 @@ class BagLog(MetricScans):
         What said where they were taken: a topic, or frames.
     n_left_out : int
         Scans before the first pose or after the last, or with other beams than most.
+
+    Examples
+    --------
+    >>> from dataclasses import fields
+    >>> from occsim.io.bags import BagLog
+    >>> [field.name for field in fields(BagLog)][4:]
+    ['times_s', 'scan_topic', 'poses_from', 'n_left_out']
     """
 
     times_s: FloatArray
@@ -107,6 +114,15 @@ def load(
         takes too long or too much memory to read.
     ParameterError
         Where a parameter lies outside its domain.
+
+    Examples
+    --------
+    A bag is a file: ``bags.load("drive.mcap")``. Anything else is refused.
+
+    >>> from occsim.io import bags
+    >>> bags.load(b"FLASER 3 1 1 1")
+    Traceback (most recent call last):
+    occsim.errors.RobotFileError: the bag is none of ROS (.bag, .mcap or .db3)
     """
     wanted = choice("poses", poses, PoseSource)
     for option, value in (
@@ -116,8 +132,6 @@ def load(
     ):
         if value is not None:
             checked_length(option, value)
-    with needs_extra("ros", "a ROS bag"):
-        import rosbags.interfaces  # noqa: F401
     data, name = read_source(
         source,
         what="the bag",
@@ -150,6 +164,8 @@ def _extracted(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return what a bag's own process read."""
     with _as_file(data, name) as path:
+        with needs_extra("ros", "a ROS bag"):
+            import rosbags.interfaces  # noqa: F401
         request = {
             "path": str(path),
             "name": name,
@@ -173,7 +189,7 @@ def _as_file(data: bytes, name: str) -> Iterator[Path]:
     """Lend a file with a suffix that `rosbags` knows."""
     suffix = next((s for mark, s in MARKS.items() if data.startswith(mark)), None)
     if suffix is None:
-        raise RobotFileError(f"{name} is no bag of ROS: a .bag, .mcap or .db3 file is")
+        raise RobotFileError(f"{name} is none of ROS (.bag, .mcap or .db3)")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, f"bag{suffix}")
         path.write_bytes(data)

@@ -1,4 +1,4 @@
 """The page Robot data: one module for each of its sections."""
 
-SECTIONS = ("A log of scans", "A ROS map")
+SECTIONS = ("A log of scans", "A drawing for the log", "A ROS map")
 """What the page can show."""

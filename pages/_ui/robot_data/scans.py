@@ -35,7 +35,7 @@ def show() -> None:
     if state.message():
         shell.say_error(state.message())
     log = given_log()
-    made = _played(log)
+    made = mapped(log)
     if made is None:
         return
     st.caption(facts(log, made))
@@ -123,7 +123,7 @@ def _forget() -> None:
     state.set_view(TAKEN, state.view(TAKEN, 0) + 1)
 
 
-def _played(log: LogFile) -> PlayedLog | None:
+def mapped(log: LogFile) -> PlayedLog | None:
     """The log on its map; None where these settings cannot map it."""
     try:
         return logs.played(log, state.settings())

@@ -1,6 +1,7 @@
 """The drawing board of this page, tied to the building."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 from occsim.corrections import pack_mask
@@ -17,14 +18,33 @@ HEIGHT_PX = 480
 """Height that lets the board and the controls above it fit in 720 px."""
 
 
+@dataclass(frozen=True)
+class Paper:
+    """What a board lies on: a picture, its scale, and the board's height."""
+
+    picture: bytes
+    metres_per_px: float | None
+    height_px: int = HEIGHT_PX
+
+
+def drawing_paper() -> Paper:
+    """The building's drawing."""
+    building = state.building()
+    return Paper(compute.backdrop(building.drawing), building.metres_per_px)
+
+
 def board(
     key: str,
     mode: BoardMode,
     source: Callable[[], kept.Source],
     make: Callable[[], BoardDocument],
     take: Callable[[BoardDocument], None],
+    *,
+    paper: Paper | None = None,
 ) -> BoardDocument:
     """Show a board of some parts of the building, `source`; return its document.
+
+    It lies on the building's drawing, or on another paper.
 
     Changes go to `take`, an edit that can be undone: in the callback, before the script
     runs, so that the whole page shows them; after the script, for a commit that came
@@ -39,15 +59,15 @@ def board(
         take(drawn)
         kept.note(key, drawn, source())
 
-    building = state.building()
+    paper = paper or drawing_paper()
     returned = drawing_board(
-        compute.backdrop(building.drawing),
+        paper.picture,
         kept.board_document(key, source(), make),
         mode=mode,
         key=key,
         on_commit=lambda: take_new(kept.committed(key, mode)),
-        metres_per_px=building.metres_per_px,
-        height_px=HEIGHT_PX,
+        metres_per_px=paper.metres_per_px,
+        height_px=paper.height_px,
     )
     take_new(returned)
     return kept.on_board(key)

@@ -116,7 +116,7 @@ function paintPath(b) {
     const radius = i === b.selected ? 7 : isEnd ? 6 : 4.5;
     disc(b, toScreen(b.camera, p), radius, i === 0 ? colour : b.colours.halo, i === 0 ? b.colours.halo : colour);
   });
-  if (points.length) paintEndNames(b, points);
+  if (points.length) paintEndNames(b, points, ["start", "end"], b.colours.path);
   paintTarget(b, points);
 }
 
@@ -141,7 +141,7 @@ function paintTarget(b, points) {
   disc(b, at, 4.5, b.colours.halo, b.colours.path);
 }
 
-function paintEndNames(b, points) {
+function paintEndNames(b, points, [first, last], colour) {
   const name = (text, p) => {
     const { ctx } = b;
     const [sx, sy] = toScreen(b.camera, p);
@@ -151,11 +151,11 @@ function paintEndNames(b, points) {
     ctx.lineWidth = 4;
     ctx.strokeStyle = b.colours.halo;
     ctx.strokeText(text, sx + 11, sy - 10);
-    ctx.fillStyle = b.colours.path;
+    ctx.fillStyle = colour;
     ctx.fillText(text, sx + 11, sy - 10);
   };
-  name("start", points[0]);
-  if (points.length > 1) name("end", points[points.length - 1]);
+  name(first, points[0]);
+  if (points.length > 1) name(last, points[points.length - 1]);
 }
 
 // Arrow heads at even distances on the screen show which way the path runs.
@@ -198,6 +198,7 @@ function paintRuler(b) {
   const ends = b.draft ? (far ? [b.draft, far] : [b.draft]) : b.doc.points;
   if (ends.length === 2) trace(b, ends, b.colours.mark, 2);
   for (const p of ends) disc(b, toScreen(b.camera, p), 5, b.colours.halo, b.colours.mark);
+  if (ends.length > 0) paintEndNames(b, ends, ["1", "2"], b.colours.mark);
   if (ends.length < 2) return;
   labelAbove(b, lengthText(b, lengthOf(ends)), ...ends.map((end) => toScreen(b.camera, end)));
 }

@@ -54,7 +54,7 @@ const TOOLS = {
   },
   ruler: {
     label: "Ruler", key: "m", start: ruler, clicks: true,
-    hint: `Click both sides of a door, or drag across it. ${STRAIGHT}`,
+    hint: `Click both ends, or drag from one to the other. ${STRAIGHT}`,
     icon: '<path d="M3.5 15.5 15.5 3.5l5 5-12 12zM7 12l2 2m1-5 3 3m0-6 2 2"/>',
   },
   frame: {
