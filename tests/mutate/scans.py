@@ -180,8 +180,8 @@ SCANS: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/scan/cell_model.py",
-        "    visits += hits\n",
-        "",
+        "    visits += hits\n    return",
+        "    return",
         ("tests/test_hits_visits.py",),
         "a beam visits the cell in which it ends",
     ),

@@ -109,8 +109,8 @@ _ROWS = (
     ),
     (
         "player/verdicts.js",
-        "=== Boolean(comparison.truth[u]) ? 1 : 2",
-        "=== Boolean(comparison.truth[u]) ? 2 : 1",
+        "(isWallA === isWall ? 1 : 2)",
+        "(isWallA === isWall ? 2 : 1)",
         VERDICTS,
         "the wrong map called right",
     ),
@@ -312,8 +312,8 @@ _ROWS = (
     ),
     (
         "player/player.js",
-        'if (p.pin !== null) p.tab = "cell";',
-        'if (p.pin !== null) openTab(p, "cell");',
+        'if (p.pin !== null || !p.header.hasTruth) p.tab = "cell";',
+        'if (p.pin !== null || !p.header.hasTruth) openTab(p, "cell");',
         f"{IN_BROWSER}a_pinned_cell_outlives_a_change_of_each_setting",
         "a pinned cell drawn before the new map is painted",
     ),
