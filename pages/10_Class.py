@@ -25,3 +25,9 @@ with shell.page(state.CLASS_PATH) as lesson:
             **state.bind_view("class_section", "Vote" if key else "Prepare"),
         )
         SECTIONS[chosen]()
+        st.toggle(
+            "Show the teacher's guide beside each lesson",
+            value=state.is_teacher(),
+            key="teacher_guides",
+            on_change=state.toggle_teacher,
+        )

@@ -38,7 +38,7 @@ def teacher(section="Prepare"):
 
 
 def row(app, name, wanted):
-    app.segmented_control(key=f"view_class_{name}").set_value(wanted).run()
+    app.segmented_control(key=f"class_row_{name}").set_value(wanted).run()
     assert not app.exception
 
 
@@ -136,10 +136,13 @@ def test_each_page_has_the_controls_that_the_table_says(page):
     app = at(page, plan=text)
     found = [words for words in said(app.caption) if "hidden by your teacher" in words]
     n_hidden = int(found[0].split()[0])
+    row = limits.each(OF_PAGES[page])
+    if page == BUILD:  # its sensor's errors are inside another group
+        row = set(OF_PAGES[page]) - {"sensor_errors"}
     if page in ("pages/0_What_the_sensor_says.py", BUILD, "pages/3_Two_maps.py"):
-        assert n_hidden == len(set(OF_PAGES[page]))
+        assert n_hidden == len(row)
     else:  # controls of other views are not drawn in this one
-        assert 0 < n_hidden <= len(set(OF_PAGES[page]))
+        assert 0 < n_hidden <= len(row)
     assert not app.exception
 
 
@@ -269,7 +272,7 @@ def solved_progress():
 def handed_in():
     app = solved_progress()
     return progress.to_text(
-        app.session_state["attempts"], "Ada", "2026-01-01T00:00:00+00:00"
+        app.session_state["attempts"], {}, "Ada", "2026-01-01T00:00:00+00:00"
     )
 
 

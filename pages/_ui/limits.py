@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields, replace
 
 from occsim.exercises import CONTROLS, Exercise
 from pages._ui.columns import Column
+from pages._ui.finders import OF_ERRORS
 from pages._ui.presets import PRESETS
 from pages._ui.settings import TABLE, Settings
 
@@ -22,10 +23,13 @@ OTHERS = {
     "drawing": "Drawing",
     "model": "Cell model: log-odds, or gmapping's counts",
     "lens_cell_px": "Cell size of the lens",
+    "sensor_errors": "Sensor's beams and errors",
     "presets": "Conditions, and examples of several maps",
     "transport": "Transport of the replay",
 }
 """Controls that set no setting, or several."""
+GROUPS = {"sensor_errors": (*OF_ERRORS, "noise_seed")}
+"""Controls that are hidden and locked together, in one row for the teacher."""
 OF_LENS = (
     *("range_px", "fov_deg", "lens_cell_px", "behind_hit", "clear_no_hit", "rule"),
     "p_wall",
@@ -53,9 +57,11 @@ OF_PAGES: Mapping[str, tuple[str, ...]] = {
     "pages/0_What_the_sensor_says.py": OF_LENS,
     "pages/1_Build_a_map.py": (
         *("drawing", "cell_px", *_ERRORS, *_MORE, "presets", "behind_hit"),
-        *("clear_no_hit", *OF_ONE_MAP),
+        *("clear_no_hit", "sensor_errors", *OF_ONE_MAP),
     ),
-    "pages/3_Two_maps.py": ("drawing", "range_px", "fov_deg", *OF_SEVERAL),
+    "pages/3_Two_maps.py": (
+        *("drawing", "range_px", "fov_deg", "sensor_errors", *OF_SEVERAL),
+    ),
     "pages/5_Sweep_the_priors.py": (*_OF_PRIORS, "surface", "drawings", "fineness"),
     "pages/6_Pareto_explorer.py": (
         *(*_OF_PRIORS, "exploring", "axes", "picture", "min_recall", "tolerance"),
@@ -149,6 +155,11 @@ PRESETS_TELL = frozenset(name for preset in PRESETS.values() for name in preset)
 NONE = Limits()
 
 
+def each(names: Iterable[str]) -> frozenset[str]:
+    """Return the controls that some names stand for."""
+    return frozenset(one for name in names for one in GROUPS.get(name, (name,)))
+
+
 def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
     """Return the limits of an exercise that opens with some settings."""
     shown = _ours(exercise.show)
@@ -171,5 +182,9 @@ def _ours(names: Iterable[str]) -> frozenset[str]:
     return frozenset(OF_EXERCISES.get(name, name) for name in names)
 
 
-_OF_THE_MAP = _ours(CONTROLS).union(("presets", "columns")) - OUTPUTS.keys()
+_OF_THE_MAP = (
+    _ours(CONTROLS)
+    .union(*(("presets", "columns"), *GROUPS.values()))
+    .difference(OUTPUTS)
+)
 """What an exercise hides where it lists what it shows."""

@@ -14,6 +14,7 @@ from streamlit.errors import StreamlitPageNotFoundError
 from occsim import OccsimError
 from pages._ui import exercising, lessons, memory, state, words
 from pages._ui.components.address import address
+from pages._ui.course import COURSE
 from pages._ui.qr import qr_popover
 
 LOG = logging.getLogger(__name__)
@@ -194,13 +195,15 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 PROJECTOR_CSS = """
 <style>
 :root { --occsim-text: 1.4; --occsim-words: none; font-size: 22.4px !important;
-    --occsim-canvas-height: clamp(220px, 100vh - 200px, 900px);
-    --occsim-canvas-height-several: clamp(180px, 100vh - 360px, 800px); }
-[data-testid="stCaptionContainer"], .st-key-map_words, .stMainBlockContainer h1,
-.st-key-home_ways { display: none; }
+    --occsim-canvas-height: clamp(220px, 100vh - 244px, 900px);
+    --occsim-canvas-height-several: clamp(180px, 100vh - 404px, 800px); }
+[data-testid="stCaptionContainer"], .st-key-map_words, .st-key-home_ways {
+    display: none; }
+.stMainBlockContainer h1 { font-size: 1.3rem; padding: 0; }
 .stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
 .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
     scrollbar-width: none; }
+.st-key-lesson_keys { flex: none; order: -1; gap: 0; flex-wrap: nowrap; }
 .st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
     white-space: nowrap; }
 /* The map comes first, the settings of the sensor below it. */
@@ -349,6 +352,19 @@ def _navigation(path: str) -> None:
             key = "current_page" if is_current else None
             with st.container(key=key, width="content"):
                 st.page_link(item.path, label=item.label, disabled=is_current)
+        if state.projector():
+            _lesson_keys()
+
+
+def _lesson_keys() -> None:
+    """The lessons by their numbers, which are the keys that open them."""
+    with st.container(horizontal=True, key="lesson_keys", width="content"):
+        for lesson in COURSE[1:]:
+            st.page_link(
+                lesson.path,
+                label=str(lesson.number),
+                query_params={"lesson": str(lesson.number)},
+            )
 
 
 def heading(here: Page) -> None:

@@ -1,5 +1,7 @@
 """Exercises in a real browser: solved by what one sets, and kept over a reload."""
 
+import re
+
 import pytest
 
 from occsim.exercises import load_exercises
@@ -79,6 +81,11 @@ def test_an_exercise_of_the_transport_alone_can_be_played(page, app_url):
     assert player.locator("[data-part=counter]").inner_text().startswith("reading")
 
 
+def letters(text):
+    """A text without what Markdown, mathematics and escapes put between its words."""
+    return re.sub(rb"[^A-Za-z0-9]+", b"", text.replace(rb"\text", b""))
+
+
 @pytest.mark.parametrize(
     "name", ["first_wall", "which_rule", "run_the_control", "upside_down"]
 )
@@ -97,11 +104,11 @@ def test_no_answer_is_sent_before_it_is_asked_for(page, app_url, name):
     )
     opened(page, app_url, name)
     page.get_by_role("button", name="Hint").wait_for()
-    everything = b"".join(sent)
-    assert exercise.title.encode() in everything
+    assert letters(exercise.title.encode()) in letters(b"".join(sent))
     for answer in (exercise.after, *exercise.hints):
-        assert answer.strip().encode() not in everything
+        assert letters(answer.encode()) not in letters(b"".join(sent))
     page.get_by_role("button", name="Hint").click()
     page.get_by_text("Hint.").wait_for()
-    assert exercise.hints[0].encode() in b"".join(sent)
-    assert exercise.hints[1].encode() not in b"".join(sent)
+    first, second = exercise.hints[:2]
+    assert letters(first.encode()) in letters(b"".join(sent))
+    assert letters(second.encode()) not in letters(b"".join(sent))

@@ -78,13 +78,18 @@ def _rows(page: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def _row(name: str) -> str:
     options = [SHOW, HIDE] if name in OUTPUTS else [SHOW, LOCK, HIDE]
     label = f"{words.maths(NAMES[name])}{_value(name)}"
-    return st.segmented_control(
+    # Never set by the program while it is on the page: rows are clicked faster than
+    # the page runs, and a click during a run would be taken back.
+    chosen = st.segmented_control(
         label,
         options,
+        default=state.view(f"class_{name}", SHOW),
         required=True,
         width="stretch",
-        **state.bind_view(f"class_{name}", SHOW),
+        key=f"class_row_{name}",
     )
+    state.set_view(f"class_{name}", chosen)
+    return chosen
 
 
 def _value(name: str) -> str:

@@ -69,6 +69,7 @@ from pages._ui.state.lesson import (
     lesson,
     open_lesson,
     prediction,
+    toggle_teacher,
     visit,
 )
 from pages._ui.state.lesson import rows as lessons_visited
@@ -159,6 +160,7 @@ __all__ = [
     "follow_link",
     "forget_player",
     "is_teacher",
+    "toggle_teacher",
     "keep_prediction",
     "keep_search",
     "kept_search",

@@ -47,7 +47,7 @@ def limits() -> Limits:
         return rules.of_exercise(exercise, openings.of_exercise(exercise))
     if prepared is None or not (prepared.hide or prepared.lock):
         return NONE
-    hidden, locked = frozenset(prepared.hide), frozenset(prepared.lock)
+    hidden, locked = rules.each(prepared.hide), rules.each(prepared.lock)
     drawing = class_drawing(prepared)
     return Limits(
         hidden=hidden,

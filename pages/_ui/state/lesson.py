@@ -89,6 +89,11 @@ def is_teacher() -> bool:
     return st.session_state.get("teacher", False)
 
 
+def toggle_teacher() -> None:
+    """Show the teacher's guides, or hide them again."""
+    st.session_state.teacher = not st.session_state.get("teacher", False)
+
+
 def leave_lesson() -> None:
     """Close the lesson; what was set stays."""
     st.session_state.lesson = ""

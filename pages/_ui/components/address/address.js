@@ -37,7 +37,7 @@ function replaceAddress(query) {
   }
 }
 
-// On a projector a digit opens the lesson of that number, as the row of pages counts them.
+// On a projector a digit opens the lesson of that number.
 function heedKeys(projector) {
   const { dataset } = document.documentElement;
   dataset.occsimProjector = projector ? "1" : "0";
@@ -46,7 +46,8 @@ function heedKeys(projector) {
   document.addEventListener("keydown", (event) => {
     const isOurs = dataset.occsimProjector === "1" && event.target === document.body;
     if (!isOurs || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (/^[0-9]$/.test(event.key)) document.querySelectorAll(".st-key-lessons a")[Number(event.key)]?.click();
+    const lessons = document.querySelectorAll(".st-key-lesson_keys a");
+    if (/^[1-9]$/.test(event.key)) lessons[Number(event.key) - 1]?.click();
   });
 }
 
