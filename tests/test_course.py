@@ -5,7 +5,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from occsim import Region, UpdateRule, sample_names
+from occsim import (
+    MappingRun,
+    ParameterError,
+    Region,
+    Trajectory,
+    UpdateRule,
+    sample_names,
+)
+from occsim.run.laps import lap_scores
 from pages._ui import compute, course, exercising, lessons, outcomes, shell, teaching
 from pages._ui.components.lens.document import LensDocument
 from pages._ui.course import COURSE
@@ -230,3 +238,34 @@ def test_the_worksheet_in_the_repository_is_the_one_that_is_offered(minutes):
     """Written by ``python -m pages._ui.teaching``."""
     kept = teaching.FOLDER / f"worksheet_{minutes}.html"
     assert kept.read_text(encoding="utf-8") == teaching.worksheet(minutes)
+
+
+def test_laps_of_one_tour_wear_the_drawing_off():
+    """Exercise 22, sample c: 64.4 % without a drawing after any number of laps; with
+    it less than one point more after the third."""
+    run = compute.mapped(compute.sample("c"), Settings(range_px=20).mapping)
+    blank = [lap_scores(run, outcomes.BLANK, n).recall for n in (1, 2, 3)]
+    own = [lap_scores(run, outcomes.SOURCE, n).recall for n in (1, 2, 3)]
+    assert blank == pytest.approx([0.644] * 3, abs=0.0005)
+    assert own[0] - blank[0] > 0.2
+    assert own[1] - blank[1] > 0.01
+    assert own[2] - blank[2] < 0.01
+
+
+def test_laps_add_the_same_readings_again():
+    run = compute.mapped(compute.sample("d"), Settings(range_px=20, cell_px=5).mapping)
+    tour = run.building.trajectory.poses
+    twice = outcomes.replace(run.building, trajectory=Trajectory(poses=[*tour, *tour]))
+    driven = MappingRun(twice, run.settings)
+    for rule in UpdateRule:
+        for region in Region:
+            expected = driven.scores(outcomes.SOURCE, rule, region)
+            assert lap_scores(run, outcomes.SOURCE, 2, rule, region) == expected
+
+
+def test_laps_are_checked():
+    run = compute.mapped(compute.sample("d"), Settings(range_px=20, cell_px=5).mapping)
+    with pytest.raises(ParameterError, match="laps"):
+        lap_scores(run, outcomes.SOURCE, 0)
+    with pytest.raises(TypeError, match="run"):
+        lap_scores(None, outcomes.SOURCE, 1)

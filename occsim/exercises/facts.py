@@ -8,7 +8,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from occsim.evidence_log import EvidenceTotals
 from occsim.exercises.grammar import Value
 from occsim.exercises.state import (
     END,
@@ -20,11 +19,12 @@ from occsim.exercises.state import (
 )
 from occsim.flaws import flawed_mask
 from occsim.logodds import is_occupied
-from occsim.mapping import OccupancyMap, UpdateRule, fuse
+from occsim.mapping import OccupancyMap, UpdateRule
 from occsim.metrics import Region, coverage, log_loss, score
 from occsim.prior import Prior
 from occsim.reading import Reading, one_reading
 from occsim.run import MappingRun, MapSettings
+from occsim.run.laps import lap_scores
 from occsim.samples import load_sample, prior_drawing, sample_names
 from occsim.samples.lens import lens_world
 
@@ -334,14 +334,10 @@ class Facts:
 
     def _laps(self, _: str) -> float:
         """Fewest laps of the tour after which a drawing adds less than 0.01 recall."""
-        sums, counts = self.run.evidence.totals()
         for laps in range(1, MAX_LAPS + 1):
-            seen = EvidenceTotals(self.run.grid, laps * sums, laps * counts)
             own, blank = (
-                score(
-                    fuse(seen, self.run.prior_map(prior), self.state.rule),
-                    self.run.truth_cells,
-                    self.state.region,
+                lap_scores(
+                    self.run, prior, laps, self.state.rule, self.state.region
                 ).recall
                 for prior in (self.state.prior, Prior.uninformative())
             )

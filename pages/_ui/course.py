@@ -149,7 +149,7 @@ COURSE = (
     Lesson(
         number=5,
         title="Count it once",
-        question="What does the book's l_0 stand for?",
+        question="What does the book's l₀ stand for?",
         path="pages/3_Two_maps.py",
         see="Both maps start from the same drawing; B takes it off again at every "
         "reading. Pin a cell with two readings and follow its two ladders.",

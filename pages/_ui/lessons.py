@@ -108,7 +108,8 @@ def _label(path: str) -> str:
 
 def _guide(lesson: Lesson) -> None:
     with st.popover("For the teacher"):
-        st.markdown(words.maths(teaching.guide(lesson)))
+        # Its first line is the title, which stands above.
+        st.markdown(words.maths(teaching.guide(lesson).partition("\n")[2]))
 
 
 def beside(path: str, number: int | None = None) -> None:

@@ -17,6 +17,8 @@ from occsim import (
 )
 from occsim.building import Building
 from occsim.logodds import logit, p_free_from_log_odds
+from occsim.run import MappingRun
+from occsim.run.laps import lap_scores
 from occsim.sensor import P_FREE_MAX
 from occsim.study import StudySettings
 from occsim.study.published import SOURCE_CELLS_PX
@@ -35,6 +37,7 @@ ONCE, SUBTRACT = UpdateRule.PRIOR_ONCE, UpdateRule.SUBTRACT_PRIOR
 SOURCE = Prior()
 AS_GOOD = 0.02
 """F2 by which a control may be worse and still do as well."""
+LAPS = 3
 LITTLE = 0.05
 """Precision whose loss is called up to 5 points."""
 LOW, HIGH = 0.1, 0.7
@@ -296,8 +299,23 @@ def control() -> Outcome:
     answer = ("everywhere" if everywhere else "looked") if looked else "no"
     return Outcome(
         f"The control is {best.p_wall:.2f} on every cell. F2 on the cells looked at: "
-        f"{said[0]}; over all cells: {said[1]}.",
+        f"{said[0]}; over all cells: {said[1]}. {_laps(run)}",
         answer,
+    )
+
+
+def _laps(run: MappingRun) -> str:
+    """What the drawing is still worth where the same tour is driven again."""
+    recalls = [
+        [words.percent(lap_scores(run, prior, n).recall) for prior in (SOURCE, BLANK)]
+        for n in range(1, LAPS + 1)
+    ]
+    shown = "; ".join(
+        f"{n}: {own} and {blank}" for n, (own, blank) in enumerate(recalls, start=1)
+    )
+    return (
+        "Recall on the cells looked at after laps of the same tour, with the drawing "
+        f"and without: {shown}."
     )
 
 

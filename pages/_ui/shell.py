@@ -171,6 +171,8 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
     min-height: 1.9rem; padding: 0 0.6rem; }
 .st-key-class_made .occsim-qr { width: min(34vh, 70vw); }
 @media (max-width: 640px) {
+    .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
+    .st-key-lesson button { min-height: 2.75rem; }
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
     [data-testid="stButtonGroup"] > div { flex-wrap: wrap; }
