@@ -28,7 +28,7 @@ with shell.page("app.py"):
     with st.container(key="home_ways"):
         path, plans = st.columns([3, 2], gap="large")
     with path:
-        st.subheader("The lessons", anchor=False)
+        st.header("The lessons", anchor=False)
         lessons.path()
     with plans:
         home.plans()

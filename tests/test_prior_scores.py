@@ -50,7 +50,7 @@ def plain(text):
 
 def test_the_table_has_both_columns_and_the_blank_map_beside_each(run):
     head, _, *rows = scores.table(run, Prior()).splitlines()
-    assert plain(head) == "| | looked at | blank | not looked at | blank |"
+    assert plain(head) == "| Score | looked at | blank | not looked at | blank |"
     assert [plain(row).split(" | ")[0] for row in rows] == [
         "| Precision",
         "| Recall",

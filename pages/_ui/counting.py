@@ -109,7 +109,7 @@ def _count_button(outcome: Outcome, region: Region, n: int) -> None:
 def shares(scored: dict[Region, Scores]) -> str:
     """Precision and recall as shares of counts, as a table."""
     heads = " | ".join(words.term(title) for title in COLUMNS.values())
-    lines = [f"| | {heads} |", "|---|---:|---:|"]
+    lines = [f"| Score | {heads} |", "|---|---:|---:|"]
     for name, other in (("precision", "fp"), ("recall", "fn")):
         cells = " | ".join(_share(one, name, other) for one in scored.values())
         lines.append(f"| {words.term(name, name.capitalize())} | {cells} |")

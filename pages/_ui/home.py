@@ -58,7 +58,7 @@ def finding(document: PlayerDocument, building: Building, settings: Settings) ->
 
 def plans() -> None:
     """Ways through the lessons, by the time that one has."""
-    st.subheader("I have", anchor=False)
+    st.header("I have", anchor=False)
     st.markdown("**2 minutes.** Watch the maps above, then compare two of them.")
     st.page_link(TWO_MAPS, label="Two maps, one clock", icon=ARROW)
     for minutes in teaching.PLANS:

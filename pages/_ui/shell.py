@@ -125,6 +125,10 @@ CSS = """
 [data-testid="stButtonGroup"] > div button { min-height: 2.5rem; }
 /* Captions are read, not skipped: Streamlit's 0.6 is a contrast of 3.9. */
 [data-testid="stCaptionContainer"] { opacity: 0.8; }
+/* The theme's colour carries white letters; as a letter it is too dim in the dark. */
+[data-testid="stButtonGroup"] [data-selected="true"] p,
+[data-testid="stSliderThumbValue"] p { color: color-mix(in srgb, currentColor 65%,
+    CanvasText); }
 /* As high as a link while it is loaded: what is below must not move. */
 .st-key-lessons > div { height: 1.25rem; }
 .st-key-lessons { column-gap: 0.25rem; }
@@ -158,7 +162,6 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 .occsim-qr { display: block; width: min(52vh, 80vw); margin: auto;
     image-rendering: pixelated; }
 .st-key-home_ways [data-testid="stPageLink"] a * { white-space: normal; }
-.st-key-home_ways h3 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
 /* A row of the class: the control's name, then what becomes of it. */
 .st-key-class_controls [data-testid="stVerticalBlock"] { gap: 0.2rem; }
 .st-key-class_controls [data-testid="stButtonGroup"] { display: flex;
@@ -170,6 +173,7 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 .st-key-class_controls [data-testid="stButtonGroup"] > div button {
     min-height: 1.9rem; padding: 0 0.6rem; }
 .st-key-class_made .occsim-qr { width: min(34vh, 70vw); }
+.stMainBlockContainer h2 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
 @media (max-width: 640px) {
     .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .st-key-lesson button { min-height: 2.75rem; }

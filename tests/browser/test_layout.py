@@ -40,3 +40,45 @@ def test_the_board_s_slider_ends_at_the_edge_of_a_telephone(chromium, app_url):
     slider.wait_for()
     box, board = slider.bounding_box(), page.locator(".board canvas").bounding_box()
     assert box["x"] + box["width"] <= board["x"] + board["width"]
+
+
+# --- A telephone: what is changed and what it changes are on one screen ---------------
+
+
+@pytest.fixture
+def phone(chromium):
+    return chromium.new_context(viewport={"width": 390, "height": 844}).new_page()
+
+
+def is_whole_on_screen(part):
+    box = part.bounding_box()
+    return box["y"] >= -1 and box["y"] + box["height"] <= 844 + 1
+
+
+@pytest.mark.parametrize(
+    ("path", "root", "picture", "controls"),
+    [
+        ("Build_a_map", ".player", "[data-pane=map] canvas", ".side input:enabled"),
+        ("What_the_sensor_says", ".lens", ".stage", ".controls input, .adding button"),
+    ],
+)
+def test_the_map_stays_in_sight_of_its_controls(
+    phone, app_url, path, root, picture, controls
+):
+    phone.goto(f"{app_url}/{path}")
+    player = phone.locator(f"{root}[data-ready='1']")
+    player.wait_for()
+    for control in player.locator(controls).all():
+        # As a thumb does: the control comes to the lower half of the screen.
+        control.evaluate("node => node.scrollIntoView({block: 'end'})")
+        assert is_whole_on_screen(control)
+        assert is_whole_on_screen(player.locator(picture))
+
+
+def test_two_maps_and_their_headers_fit_a_telephone(phone, app_url):
+    phone.goto(f"{app_url}/Two_maps")
+    phone.locator(".player[data-ready='1']").wait_for()
+    phone.locator(".stage").evaluate("node => node.scrollIntoView({block: 'start'})")
+    for part in phone.locator("[data-pane=map] :is(canvas, .header)").all():
+        assert is_whole_on_screen(part)
+    assert is_whole_on_screen(phone.locator("[data-do=play]"))

@@ -49,7 +49,7 @@ ANSWERS = {True: "yes", False: "no", None: words.DASH}
 @st.fragment
 def section(drawings: list[Building]) -> None:
     """Count the claims when asked to, and show the counts."""
-    st.markdown("### Claims")
+    st.markdown("## Claims")
     st.markdown(
         f"Each claim of the source, judged under {len(CONDITIONS)} conditions: the "
         "same drawings, other rules. A claim that holds under one condition only says "

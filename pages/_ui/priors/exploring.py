@@ -62,6 +62,7 @@ def _chosen_maps(both: list[Run]) -> None:
             one.picture(state.prior(), state.settings().picture),
             width="stretch",
             caption=f"Drawing {SHORT[one.settings.rule]}",
+            alt=f"Map of {one.building.title}, drawing {SHORT[one.settings.rule]}",
         )
 
 

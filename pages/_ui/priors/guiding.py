@@ -203,7 +203,7 @@ def transfer_table(run: Run, answers: list[Answer]) -> str:
     """F2 and bits of each answer here, on other drawings and on other tours."""
     places = compute.transfer_runs(run)
     heads = " | ".join(places)
-    lines = [f"| | {heads} |", "|---|" + "---:|" * len(places)]
+    lines = [f"| Prior | {heads} |", "|---|" + "---:|" * len(places)]
     for title, one in with_blank(answers):
         cells = (_mean_scores(runs, one) for runs in places.values())
         lines.append(f"| {title} | {' | '.join(cells)} |")

@@ -83,7 +83,7 @@ def table(run: Run, prior: Prior, rule: UpdateRule | None = None) -> str:
     """
     blank = term("blank map", "blank")
     heads = " | ".join(f"{term(title)} | {blank}" for title in COLUMNS.values())
-    lines = [f"| | {heads} |", "|---|" + "---:|" * 2 * len(COLUMNS)]
+    lines = [f"| Score | {heads} |", "|---|" + "---:|" * 2 * len(COLUMNS)]
     for row in rows(run, prior, rule):
         pairs = zip(row.values, row.blank, strict=True)
         cells = " | ".join(f"**{value}** | {blank}" for value, blank in pairs)

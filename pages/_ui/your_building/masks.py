@@ -118,6 +118,7 @@ def _world_picture() -> None:
             mask_png(state.building().wall_mask),
             caption="Without a ground truth the wall mask serves as the world.",
             width=shown_px,
+            alt="The wall mask",
         )
 
 

@@ -15,6 +15,7 @@ export default function (component) {
   heedKeys(projector);
   if (hasButton) keepProgress(progress, setStateValue);
   showCurrentPage();
+  letWideScroll();
   root.querySelector("button").onclick = () => copy(said, note);
 }
 
@@ -26,6 +27,13 @@ function showCurrentPage() {
   if (!current) return;
   const [outer, inner] = [row.getBoundingClientRect(), current.getBoundingClientRect()];
   row.scrollLeft += inner.left + inner.width / 2 - (outer.left + outer.width / 2);
+}
+
+// What is wider than a telephone is scrolled by its keys as well.
+function letWideScroll() {
+  for (const one of document.querySelectorAll("[data-testid=stMarkdownContainer] table, pre")) {
+    if (one.scrollWidth > one.clientWidth) one.tabIndex = 0;
+  }
 }
 
 function replaceAddress(query) {
