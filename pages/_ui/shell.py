@@ -205,15 +205,16 @@ PROJECTOR_CSS = """
     --occsim-canvas-height-several: clamp(180px, 100vh - 404px, 800px); }
 [data-testid="stCaptionContainer"], .st-key-map_words, .st-key-home_ways {
     display: none; }
-.stMainBlockContainer h1 { font-size: 1.3rem; padding: 0; }
+.stMainBlockContainer h1 { font-size: 1.3rem; padding: 0 0 0.3rem; }
 .stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
 .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
     scrollbar-width: none; }
 .st-key-lesson_keys { flex: none; order: -1; gap: 0; flex-wrap: nowrap; }
 .st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
     white-space: nowrap; }
-/* The map comes first, the settings of the sensor below it. */
-:has(> .st-key-map_controls) { order: 1; }
+/* The map comes first, what is to be done and the sensor's settings below it. */
+:has(> .st-key-map_controls), :has(> .st-key-lesson), :has(> .st-key-exercise) {
+    order: 1; }
 :has(> .st-key-ending) { order: 3; }
 [data-testid="stProgress"] [role="progressbar"] > div,
 [data-testid="stProgress"] [role="progressbar"] > div > div { height: 1rem; }
