@@ -243,7 +243,7 @@ def test_a_question_of_ones_own_is_text_and_no_markup():
     app.text_input(key="view_vote_option_0").set_value("<b>yes</b>")
     app.text_input(key="view_vote_option_1").set_value("no").run()
     press(app, "Open a room")
-    [question] = [one.value for one in app.subheader]
+    [question] = [one.value for one in app.header]
     assert "![x]" not in question
     code, _ = app.session_state["room"]
     assert ROOMS.seen(code).options == ("<b>yes</b>", "no")

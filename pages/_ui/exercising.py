@@ -145,7 +145,7 @@ def all_exercises() -> None:
 
 def _hand_in() -> None:
     """What the teacher collects: a file with all that was predicted and tried."""
-    st.subheader("Hand in", anchor=False)
+    st.header("Hand in", anchor=False)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         name = st.text_input(
             "Your name in the file (optional)",

@@ -173,7 +173,9 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 .st-key-class_controls [data-testid="stButtonGroup"] > div button {
     min-height: 1.9rem; padding: 0 0.6rem; }
 .st-key-class_made .occsim-qr { width: min(34vh, 70vw); }
-.stMainBlockContainer h2 { padding: 0.5rem 0 1rem; font-size: 1.15rem; }
+.stMainBlockContainer h2 { padding: 0.5rem 0; font-size: 1.4rem; }
+.stMainBlockContainer .st-key-home_ways h2 { padding: 0.5rem 0 1rem;
+    font-size: 1.15rem; }
 @media (max-width: 640px) {
     .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .st-key-lesson button { min-height: 2.75rem; }

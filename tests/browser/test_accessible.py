@@ -20,7 +20,7 @@ OF_STREAMLIT = {
 TAGS = [f"wcag2{one}" for one in ("a", "aa", "1a", "1aa", "2aa")] + ["best-practice"]
 VIEWS = {"laptop light": (1280, 720, "light"), "phone dark": (390, 844, "dark")}
 PAGE_PATHS = [
-    "" if one.path == "app.py" else one.path[len("pages/0_") : -3] for one in PAGES
+    "" if one.path == "app.py" else one.path.split("_", 1)[1][:-3] for one in PAGES
 ]
 MORE_PATHS = [
     *(f"Your_building?section={number}" for number in (2, 4, 6)),

@@ -80,7 +80,7 @@ def _predictions(students: list[Student]) -> None:
     ]
     if not asked:
         return
-    st.subheader("What was predicted", anchor=False)
+    st.header("What was predicted", anchor=False)
     titles = {one.id: f"{one.number}. {one.title}" for one in asked}
     chosen = st.selectbox(
         "Exercise", list(titles), format_func=titles.__getitem__, width=480

@@ -210,7 +210,7 @@ def _show_made() -> None:
     with st.container(border=True, key="class_made"):
         left, right = st.columns([3, 2], gap="large")
         with left:
-            st.markdown(f"### Code: {spaced(code)}")
+            st.markdown(f"## Code: {spaced(code)}")
             st.markdown("To type on the home page, or as a link:")
             st.code(short, language=None, wrap_lines=True)
             _long_link(prepared)

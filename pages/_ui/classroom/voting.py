@@ -44,7 +44,7 @@ def student(code: str) -> None:
         st.warning(GONE)
         st.button("Leave this room", on_click=state.enter_room, args=("",))
         return
-    st.subheader(words.plain(seen.question), anchor=False)
+    st.header(words.plain(seen.question), anchor=False)
     _of_student(code)
     st.button("Leave this room", on_click=state.enter_room, args=("",))
 
@@ -110,13 +110,13 @@ def _of_teacher(code: str, key: str) -> None:
     link = link_to(state.CLASS_PATH, {"room": code})
     left, right = st.columns([3, 2], gap="large")
     with left:
-        st.subheader(words.plain(ROOMS.seen(code).question), anchor=False)
+        st.header(words.plain(ROOMS.seen(code).question), anchor=False)
         _tally(code, key)
         if st.button("Close this room and ask another"):
             state.enter_room("")
             st.rerun()
     with right:
-        st.markdown(f"### Room: {code}")
+        st.markdown(f"## Room: {code}")
         st.html(qr_html(link, "QR code of the link to this room"))
         st.code(link, language=None, wrap_lines=True)
 
