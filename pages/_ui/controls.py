@@ -14,13 +14,22 @@ from pages._ui import presets as named
 from pages._ui.choices import CHOICES, Preset
 from pages._ui.settings import TABLE, Settings
 
-CHART_CONFIG = {"displayModeBar": False, "scrollZoom": False}
-"""Plotly options of every chart: a click selects, and the wheel scrolls the page."""
 NARROW_PX = 165
 """Two sliders of this width stand side by side on a telephone of 390 px."""
 DRAWING_PX = 250
 MANY = 4
 """So many options stand in a list that opens."""
+
+
+def chart(name: str) -> dict[str, Any]:
+    """Plotly options of a chart: a click selects, the wheel scrolls the page, and a
+    button saves the chart under the name as SVG, for slides and reports."""
+    return {
+        "scrollZoom": False,
+        "displaylogo": False,
+        "modeBarButtons": [["toImage"]],
+        "toImageButtonOptions": {"format": "svg", "filename": name},
+    }
 
 
 def shown(name: str) -> bool:

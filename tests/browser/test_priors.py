@@ -3,6 +3,7 @@
 import json
 import re
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -184,3 +185,13 @@ def test_the_study_prints_its_tables(page, app_url):
         page.get_by_role("button", name="Tables (CSV)").click()
     lines = waiting.value.path().read_text().splitlines()
     assert len(lines) == 31
+
+
+def test_a_chart_is_saved_as_svg_under_its_name(page, app_url):
+    open_page(page, app_url, "Sweep_the_priors")
+    chart = page.locator(".js-plotly-plot").first
+    chart.hover()
+    with page.expect_download() as saved:
+        chart.locator(".modebar-btn").click()
+    assert saved.value.suggested_filename == "surface_precision_prior_once.svg"
+    assert Path(saved.value.path()).read_text().startswith("<svg")

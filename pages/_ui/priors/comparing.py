@@ -8,7 +8,7 @@ from occsim import Prior, PriorSweep, sample_names
 from occsim._types import IntArray
 from occsim.priors import ParetoFront, near_front
 from pages._ui import compute, controls, glossary, shell, state, words
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors import front_figures, fronts, maps, marks, scores, surfaces
 from pages._ui.priors.front_figures import Mark
 from pages._ui.priors.scores import BLANK
@@ -45,7 +45,9 @@ def _fronts_and_region(runs: dict[str, Run]) -> None:
             count, values, len(runs), marked, state.pair()
         )
         st.plotly_chart(
-            figure, config=CHART_CONFIG, **state.bind_chart("region", of_pairs=True)
+            figure,
+            config=chart("near_front"),
+            **state.bind_chart("region", of_pairs=True),
         )
         controls.slider("tolerance")
     st.markdown(verdict(count.tolist(), runs, settings.tolerance))
@@ -82,7 +84,9 @@ def _overlay(runs: dict[str, Run]) -> None:
         "overlay",
     )
     st.plotly_chart(
-        figure, config=CHART_CONFIG, **state.bind_chart(f"fronts_{settings.axes.value}")
+        figure,
+        config=chart("pareto_fronts"),
+        **state.bind_chart(f"fronts_{settings.axes.value}"),
     )
 
 

@@ -7,7 +7,7 @@ from occsim.prior import SOURCE_PAIR
 from occsim.priors import recommend, rectangles_at
 from pages._ui import compute, controls, lessons, palette, shell, state, words
 from pages._ui.choices import CHOICES
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors import front_figures, front_words, fronts, maps, marks, scores
 from pages._ui.priors.front_figures import Drawn, Mark, PairsOfRule
 from pages._ui.runs import Run
@@ -108,7 +108,9 @@ def _front_chart(drawn: list[Drawn], title: str) -> None:
         "front",
     )
     st.plotly_chart(
-        figure, config=CHART_CONFIG, **state.bind_chart(f"front_{settings.axes.value}")
+        figure,
+        config=chart("pareto_front"),
+        **state.bind_chart(f"front_{settings.axes.value}"),
     )
 
 
@@ -123,7 +125,9 @@ def _prior_space(both: list[Run], drawn: list[Drawn]) -> None:
         rules, marks.marked(both[0]), state.pair(), state.settings().min_recall
     )
     st.plotly_chart(
-        figure, config=CHART_CONFIG, **state.bind_chart("prior_space", of_pairs=True)
+        figure,
+        config=chart("prior_pairs"),
+        **state.bind_chart("prior_space", of_pairs=True),
     )
     st.caption(
         "Shaded: the pairs that score as the chosen one, in the rule's colour. "

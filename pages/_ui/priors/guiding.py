@@ -17,7 +17,7 @@ from occsim.io.prior_map import (
 from occsim.priors import set_c
 from pages._ui import compute, controls, palette, shell, state, words
 from pages._ui.choices import CHOICES, FrontAxes, Handover, Picture
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors import front_figures, marks, reliability, scores
 from pages._ui.priors.answers import Answer, handed_over
 from pages._ui.priors.front_figures import Mark
@@ -84,7 +84,7 @@ def front(run: Run, answers: list[Answer]) -> None:
     figure = front_figures.front_figure(
         run.front, FrontAxes.SCORES, _marks(run, chosen), min_recall
     )
-    st.plotly_chart(figure, config=CHART_CONFIG, key="path_front")
+    st.plotly_chart(figure, config=chart("pareto_front"), key="path_front")
     n, n_inside = len(run.front), len(set_c(run.front, min_recall))
     st.caption(
         f"{n} point{'' if n == 1 else 's'}, exact; {n_inside} with a recall above "

@@ -6,7 +6,7 @@ import streamlit as st
 from occsim import Prior, Reliability, reliability
 from pages._ui import palette, words
 from pages._ui.choices import CHOICES
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors.answers import Answer
 from pages._ui.runs import Run
 
@@ -21,7 +21,7 @@ def diagram(run: Run, given: Answer) -> None:
         title: _of(run, given.prior or Prior.uninformative(), given),
         "blank map": _of(run, Prior.uninformative(), given),
     }
-    st.plotly_chart(figure(series), config=CHART_CONFIG, key="reliability")
+    st.plotly_chart(figure(series), config=chart("reliability"), key="reliability")
     errors = "; ".join(
         f"{name} {words.percent(one.expected_calibration_error)}"
         for name, one in series.items()

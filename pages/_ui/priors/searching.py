@@ -8,7 +8,7 @@ from streamlit.delta_generator import DeltaGenerator
 from pages._ui import compute, controls, state, words
 from pages._ui.choices import Objectives
 from pages._ui.compute import SearchStep
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors import fronts, search_figures
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
@@ -33,11 +33,11 @@ def search(run: Run) -> None:
         kept = state.kept_search(key)
         if kept:
             figure = search_figures.replay_figure(kept, run.front, settings.axes)
-            place.plotly_chart(figure, config=CHART_CONFIG, key="search")
+            place.plotly_chart(figure, config=chart("search"), key="search")
             st.caption(_summary(run, kept, settings))
         else:
             figure = search_figures.still_figure([], run.front, settings.axes)
-            place.plotly_chart(figure, config=CHART_CONFIG, key="bare")
+            place.plotly_chart(figure, config=chart("exact_front"), key="bare")
             st.caption(
                 "No search has been run yet. After a run, the hypervolume by "
                 "generation is shown below the front."
@@ -76,7 +76,7 @@ def _watch(run: Run, settings: Settings, key: object, place: DeltaGenerator) -> 
             if step.number % every == 0:
                 figure = search_figures.still_figure(steps, run.front, settings.axes)
                 place.plotly_chart(
-                    figure, config=CHART_CONFIG, key=f"live {step.number}"
+                    figure, config=chart("search"), key=f"live {step.number}"
                 )
     bar.empty()
 

@@ -19,7 +19,7 @@ from occsim.study import (
 )
 from occsim.study.published import SOURCE_CELLS_PX
 from pages._ui import compute, shell, state, words
-from pages._ui.controls import CHART_CONFIG
+from pages._ui.controls import chart
 from pages._ui.priors import front_figures
 
 TITLES = {
@@ -123,7 +123,7 @@ def all_fronts(cases: list[StudyCase]) -> None:
         with column:
             st.markdown(f"**Exact fronts, cells of {cell_px} px**")
             figure = front_figures.study_figure(fronts, chosen.axes, chosen.min_recall)
-            st.plotly_chart(figure, config=CHART_CONFIG, key=f"study_{cell_px}")
+            st.plotly_chart(figure, config=chart("study"), key=f"study_{cell_px}")
 
 
 def downloads(cases: list[StudyCase]) -> None:

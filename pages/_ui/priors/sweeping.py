@@ -85,7 +85,7 @@ def _surface_chart(
     )
     key = f"surface_{view.name}_{run.settings.rule.value}"
     st.plotly_chart(
-        figure, config=controls.CHART_CONFIG, **state.bind_chart(key, of_pairs=True)
+        figure, config=controls.chart(key), **state.bind_chart(key, of_pairs=True)
     )
 
 
@@ -103,7 +103,7 @@ def all_drawings() -> None:
             [marks.marked(run) for run in runs.values()],
             state.pair(),
         )
-        st.plotly_chart(figure, config=controls.CHART_CONFIG, key="surface_rows")
+        st.plotly_chart(figure, config=controls.chart("surfaces"), key="surface_rows")
         st.caption("Each sensor reaches as far as a door of its own drawing is wide.")
     with text:
         explain(next(iter(runs.values())))

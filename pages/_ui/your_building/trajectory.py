@@ -9,7 +9,7 @@ from occsim.building import TOUR_READINGS, random_trajectory, sketched_trajector
 from occsim.corrections import pack_mask
 from occsim.io.trajectories.pose_table import pose_columns, trajectory_from_columns
 from occsim.tour import MAX_READINGS, default_tour
-from pages._ui import state, uploads
+from pages._ui import controls, state, uploads
 from pages._ui.components.board import BoardDocument, BoardMode, BoardPoint
 from pages._ui.state import boards as kept
 from pages._ui.your_building import drawn, lengths
@@ -43,7 +43,9 @@ def show() -> None:
             _board()
         else:
             st.plotly_chart(
-                poses_figure(state.building(), drawn.HEIGHT_PX), key="poses"
+                poses_figure(state.building(), drawn.HEIGHT_PX),
+                config=controls.chart("poses"),
+                key="poses",
             )
     with right:
         # After the board, so that it counts the path just drawn.
