@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim import _archives
-from occsim.errors import OccsimError
+from occsim.errors import OccsimError, shown
 
 Array = npt.NDArray[np.generic]
 
@@ -30,6 +30,7 @@ def unpacked(
     what: str,
     max_values: int,
     error: type[OccsimError],
+    any_real: bool = False,
 ) -> dict[str, Array]:
     """Return the arrays of an NPZ file.
 
@@ -45,6 +46,9 @@ def unpacked(
         Most values that an array may have.
     error : type of OccsimError
         What to raise.
+    any_real : bool, default False
+        Whether real numbers of other types, of at most 8 bytes, are taken, too, as a
+        program of another author writes them.
 
     Returns
     -------
@@ -67,16 +71,14 @@ def unpacked(
             required=limits,
             max_bytes=sum(limits.values()),
             what=what,
-            needed=what,
+            needed="NPZ",
         )
         return {
-            name.removesuffix(".npy"): _array(files[name], dtype)
+            name.removesuffix(".npy"): _array(name, files[name], dtype, any_real)
             for name, dtype in kinds.items()
         }
-    except ValueError:  # an ArchiveError, too
-        raise error(
-            f"it is not an undamaged file of {what}, of at most {max_values:,} values"
-        ) from None
+    except ValueError as reason:  # an ArchiveError, too
+        raise error(f"it is not an undamaged file of {what}: {reason}") from None
 
 
 def read_header(content: io.BytesIO) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
@@ -109,13 +111,23 @@ def read_header(content: io.BytesIO) -> tuple[tuple[int, ...], bool, np.dtype[An
     return shape, by_column, dtype
 
 
-def _array(data: bytes, dtype: np.dtype[np.generic]) -> Array:
+def _array(
+    name: str, data: bytes, dtype: np.dtype[np.generic], any_real: bool
+) -> Array:
     content = io.BytesIO(data)
     # Type, shape and length are compared before any value is read: numpy would else
     # set memory aside for what a header announces.
-    shape, by_column, found = read_header(content)
+    try:
+        shape, by_column, found = read_header(content)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    is_real = found.kind in "iuf" and found.itemsize <= np.float64().itemsize
+    if found != dtype and not (any_real and is_real):
+        raise ValueError(f"{name} must be of type {dtype}; got {found!s:.40}")
     count = int(np.prod(shape, dtype=object))
     start = content.tell()
-    if found != dtype or by_column or len(data) - start != count * dtype.itemsize:
-        raise ValueError("another type or length")
-    return np.frombuffer(data, dtype, count, start).reshape(shape)
+    if len(data) - start != count * found.itemsize:
+        raise ValueError(f"{name} must be as long as its shape says, {shown(shape)}")
+    values = np.frombuffer(data, found, count, start)
+    values = values.reshape(shape, order="F" if by_column else "C")
+    return values.astype(dtype, "C", copy=False)

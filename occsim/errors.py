@@ -89,7 +89,7 @@ class RobotFileError(OccsimError):
     >>> try:
     ...     Mapper.load(b"no map")
     ... except RobotFileError as error:
-    ...     print(str(error).split(",")[0])
+    ...     print(str(error).split(":")[0])
     it is not an undamaged file of a map saved by Mapper.save
     """
 

@@ -29,9 +29,11 @@ def flaser(ranges, pose=(1, 2, 0), odometry=(1, 2, 0), tail="7.5 host 7.5"):
     return f"FLASER {' '.join(map(str, numbers))} {tail}\n"
 
 
-def robotlaser(ranges, pose=(1, 2, 0), robot=(0.8, 2, 0), most=81.9, remissions=()):
+def robotlaser(
+    ranges, pose=(1, 2, 0), robot=(0.8, 2, 0), most=81.9, remissions=(), kind=99
+):
     n = len(ranges)
-    head = [0, -math.pi / 2, math.pi, math.pi / (n - 1), most, 0.01, 0]
+    head = [kind, -math.pi / 2, math.pi, math.pi / (n - 1), most, 0.01, 0]
     parts = [*head, n, *ranges, len(remissions), *remissions]
     parts += [*pose, *robot, 0, 0, 0.5, 0.4, 1e6, 12.25]
     return f"ROBOTLASER1 {' '.join(map(str, parts))} host 0.5\n"
@@ -82,14 +84,50 @@ def test_a_robotlaser_line_says_how_its_beams_point_and_reach():
         (181, -90, 1),
         (360, -90, 0.5),
         (361, -90, 0.5),
+        (400, -50, 0.25),
         (401, -50, 0.25),
+        (541, -135, 0.5),
+        (683, -341 * 360 / 1024, 360 / 1024),
+        (769, -135, 360 / 1024),
+        (1081, -135, 0.25),
+        (3, -90, 90),
+        (4, -90, 45),
         (1, 0, 0),
     ],
 )
-def test_beams_of_a_flaser_line_point_as_those_of_a_sick(n, first, step):
+def test_beams_of_a_flaser_line_point_as_those_of_its_range_finder(n, first, step):
+    """Steps as CARMEN (readlog.c) and gmapping (carmenconfiguration.cpp) take them."""
     log = loaded(flaser([1] * n))
     bearings = -np.degrees(log.scan_log.bearings_rad[::-1])  # to the left
     np.testing.assert_allclose(bearings, first + step * np.arange(n), atol=1e-9)
+
+
+def test_what_a_sick_gives_where_nothing_returns_is_no_return():
+    """An LMS writes 81.83 to 81.91 m as error codes, below the reach that it states."""
+    ranges = [3, 79.9, 81.83, 81.91, 4]
+    sick = loaded(robotlaser(ranges, most=81.92, kind=0))
+    np.testing.assert_allclose(
+        sick.scan_log.ranges_px[0, ::-1] * 0.05, [3, 79.9, np.inf, np.inf, 4]
+    )
+    # One that reaches less is believed, and so are others that reach as far.
+    assert loaded(robotlaser([1, 2], most=8, kind=0)).scan_log.max_range_px == 160
+    assert loaded(robotlaser(ranges, most=90)).scan_log.is_hit.all()
+
+
+FORMS = {
+    "a byte order mark": "\ufeff" + flaser([3, 4, 5]) * 2,
+    "tabs": flaser([3, 4, 5]).replace(" ", "\t") * 2,
+    "leading gaps": "".join(" " + flaser([3, 4, 5]) for _ in range(2)),
+    "line ends of Windows": (flaser([3, 4, 5]) * 2).replace("\n", "\r\n"),
+    "no end of the last line": (flaser([3, 4, 5]) * 2).rstrip(),
+}
+
+
+@pytest.mark.parametrize("text", FORMS.values(), ids=FORMS)
+def test_lines_are_read_in_every_form_that_editors_leave(text):
+    log = loaded(text)
+    np.testing.assert_allclose(log.scan_log.ranges_px * 0.05, [[5, 4, 3]] * 2)
+    assert log.times_s.tolist() == [7.5, 7.5]
 
 
 def test_readings_at_the_greatest_range_are_no_return_and_zeros_are_invalid():
@@ -258,6 +296,13 @@ def test_a_log_without_scans_is_refused():
             carmen.load(content)
     with pytest.raises(RobotFileError, match="empty"):
         carmen.load(b"")
+
+
+def test_a_log_of_scans_without_poses_says_which_lines_it_has():
+    raw = "RAWLASER1 0 -1.57 3.14 0.017 81.9 0.01 0 3 1 2 3 0 12.25 host 12.25\n"
+    for lines in ((raw,), ("SYNC a\n", "ODOM 1 2 3 0 0 0 0 host 0\n", raw)):
+        with pytest.raises(RobotFileError, match="from where; its lines .*RAWLASER1"):
+            loaded("# comment\n", *lines)
 
 
 def test_poses_far_apart_are_refused_before_a_map_is_made():

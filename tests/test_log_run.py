@@ -48,7 +48,7 @@ def test_a_carmen_log_and_an_npz_file_open_alike():
         (b"x,y,theta\n1,2,3\n", "no line FLASER"),
         (LINE + b"FLASER 3 1 2 what 4 5 0 4 5 0 1\n", "line 2 is damaged"),
         (b"PK\x03\x04 not an archive", "undamaged"),
-        (b"#ROSBAG V2.0\n", "a ROS 1 bag"),
+        (b"#ROSBAG V2.0\n", "the bag is damaged|a ROS bag needs rosbags"),
     ],
 )
 def test_what_is_no_log_is_refused_in_a_sentence(data, says):

@@ -91,7 +91,9 @@ HOSTILE = {
     "cut": saved()[:-30],
     "an array missing": saved(ranges_m=None),
     "another array": saved(more=np.zeros(2)),
-    "whole numbers": saved(ranges_m=np.ones((2, 2), int)),
+    "complex numbers": saved(ranges_m=np.ones((2, 2), complex)),
+    "truth values": saved(ranges_m=np.ones((2, 2), bool)),
+    "text": saved(ranges_m=np.full((2, 2), "1")),
     "objects": saved(ranges_m=np.full((2, 2), None)),
     "another number of scans": saved(poses_m=np.zeros((3, 3))),
     "another number of beams": saved(bearings_rad=np.zeros(3)),
@@ -102,6 +104,29 @@ HOSTILE = {
     "two reaches": saved(max_range_m=np.ones(2)),
     "no reach": saved(max_range_m=np.array(0.0)),
 }
+
+
+@pytest.mark.parametrize("kind", [np.float32, ">f8", np.int64, np.uint8, np.float16])
+def test_real_numbers_of_any_type_and_order_are_taken(kind):
+    """As programs write them that know nothing of this one."""
+    ranges = np.array([[1, 2], [3, 4]])
+    found = load(saved(ranges_m=np.asfortranarray(ranges, kind)), metres_per_px=0.5)
+    np.testing.assert_array_equal(found.scan_log.ranges_px, [[4, 2], [8, 6]])
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (saved(ranges_m=None), "ranges_m.npy is missing"),
+        (saved(more=np.zeros(2)), "got 'more.npy'"),
+        (saved(ranges_m=np.full((2, 2), None)), "ranges_m.npy must be of type float64"),
+        (saved(ranges_m=1000 * np.ones((2, 2))), "ranges_m must lie in 0 to max_range"),
+        (saved(poses_m=np.zeros((2, 2))), "x_m, y_m, theta_rad"),
+    ],
+)
+def test_a_refusal_says_what_is_wrong_with_which_array(content, sentence):
+    with pytest.raises(RobotFileError, match=sentence):
+        load(content)
 
 
 def test_the_small_file_is_good():

@@ -133,6 +133,37 @@ def test_hostile_scans_are_refused_in_a_sentence(content):
     assert len(str(refused.value)) < 250
 
 
+FORMS = {
+    "byte order marks": (b"\xef\xbb\xbf" + TUM, b"\xef\xbb\xbf" + CSV),
+    "line ends of Windows": (TUM.replace(b"\n", b"\r\n"), CSV.replace(b"\n", b"\r\n")),
+    "comments in any language": (b"# Gr\xc3\xb6\xc3\x9fe\n" + TUM, CSV),
+    "quoted titles": (TUM, CSV.replace(b"time_s", b'"time_s"')),
+    "numbers of single precision": (TUM, saved(ranges_m=np.float32([[3, 4, 5]]))),
+}
+
+
+@pytest.mark.parametrize(("poses", "scans"), FORMS.values(), ids=FORMS)
+def test_files_are_read_in_every_form_that_programs_leave(poses, scans):
+    assert timed.is_timed_scans(scans)
+    found = timed.load(poses, scans)
+    np.testing.assert_allclose(found.scan_log.ranges_px * 0.05, [[5, 4, 3]])
+
+
+@pytest.mark.parametrize(
+    ("poses", "scans", "sentence"),
+    [
+        (TUM.replace(b"12 2", b"noon 2"), CSV, 'got "noon" in line 3 of the traj'),
+        (TUM + b"\n13 1\n", CSV, "8 numbers a line are needed; got 2 in line 5"),
+        (TUM, CSV + b"12,1,,2\n", 'got "" in line 3 of the scans'),
+        (TUM, CSV + b"\n12,1,2\n", "4 numbers a line are needed; got 3 in line 4"),
+        (TUM, CSV.replace(b",", b";"), "first line of the scans must be time_s"),
+    ],
+)
+def test_a_damaged_line_is_named(poses, scans, sentence):
+    with pytest.raises(RobotFileError, match=sentence):
+        timed.load(poses, scans)
+
+
 def test_too_many_lines_are_refused_before_they_are_read(monkeypatch):
     monkeypatch.setattr(timed, "MAX_POSES", 2)
     timed.load(TUM, CSV)

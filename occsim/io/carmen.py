@@ -5,6 +5,7 @@ time ..``), ``ROBOTLASER1`` and ``ODOM`` are read, all others passed over. In lo
 corrected poses, as gmapping's ``gfs2log`` writes them, x, y and theta are corrected.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -24,6 +25,27 @@ MAX_SCANS = 200_000
 LMS_RANGE_M = 80.0
 """A FLASER line does not say how far its range finder reaches. CARMEN's was a SICK
 LMS200, which reads 81.83 m and more where nothing returns; gmapping, too, takes 80."""
+
+SICK_LMS = 0
+"""Its number among CARMEN's range finders."""
+
+STEPS_DEG = {
+    400: 0.25,
+    401: 0.25,
+    540: 0.5,
+    541: 0.5,
+    682: 360.0 / 1024.0,
+    683: 360.0 / 1024.0,
+    769: 360.0 / 1024.0,
+    1080: 0.25,
+    1081: 0.25,
+}
+"""Between the beams of a FLASER line, by their number, where that tells a range finder
+that looks along more or less than half a turn: the LMS200 at 100 degrees, the S300, and
+three of Hokuyo."""
+
+_BOM = b"\xef\xbb\xbf"
+_FIRST_WORD = re.compile(rb"(?m)^[ \t]*([A-Z][A-Z0-9_]+)[ \t]")
 
 
 class PoseSource(Enum):
@@ -112,7 +134,7 @@ def load(
         Scale of the map, above 0.
     max_range_m : float, optional
         A reading at or beyond it is no return. By default what ROBOTLASER1 says, and
-        `LMS_RANGE_M` for FLASER.
+        `LMS_RANGE_M` for FLASER and where a SICK LMS says more.
     usable_range_m : float, optional
         Beyond it nothing is mapped; by default `max_range_m`. Hits beyond it count as
         far as it, and do not enlarge the map.
@@ -136,7 +158,10 @@ def load(
     -----
     Where a log has both kinds of scans, FLASER is read. FLASER lines do not say where
     their beams point: half a turn, from the right to the left, in steps of 180 degrees
-    by n (n even) or n - 1 (odd); 401 beams are 100 degrees in steps of a quarter.
+    by n (n even) or n - 1 (odd); for some n in those of `STEPS_DEG`.
+
+    A SICK LMS says that it reaches farther than 80 m, and gives 81.83 m and more where
+    nothing returns: by default its reach is `LMS_RANGE_M`.
 
     References
     ----------
@@ -188,27 +213,35 @@ def load(
 
 def _parse(data: bytes, name: str) -> tuple[list[_Line], FloatArray]:
     """Return the scans of one kind, and the poses of the odometry."""
-    kind = b"FLASER" if _has(data, b"FLASER") else b"ROBOTLASER1"
+    data = data.removeprefix(_BOM)
+    found = set(_FIRST_WORD.findall(data))
+    kind = b"FLASER" if b"FLASER" in found else b"ROBOTLASER1"
+    if kind not in found:
+        raise RobotFileError(_without_scans(found, printable(name)))
     read = _flaser if kind == b"FLASER" else _robotlaser
     scans, odometry, n_ranges = list[_Line](), list[FloatArray](), 0
     for number, line in _lines(data):
-        where = f"{name}, line {number}"
-        if line.startswith(b"ODOM "):
+        first, where = line[:99].split(None, 1)[:1], f"{name}, line {number}"
+        if first == [b"ODOM"]:
             odometry.append(_Words(line, where).numbers(3, "of the pose"))
-        elif line.startswith(kind + b" "):
+        elif first == [kind]:
             scans.append(read(_Words(line, where)))
             n_ranges += scans[-1].laser.n_beams
             _check_alike(scans, n_ranges, where)
-    if not scans:
-        raise RobotFileError(
-            f"{printable(name)} has no line FLASER or ROBOTLASER1; a log in CARMEN "
-            "format is needed"
-        )
     return scans, np.array(odometry).reshape(-1, 3)
 
 
-def _has(data: bytes, kind: bytes) -> bool:
-    return data.startswith(kind + b" ") or b"\n" + kind + b" " in data
+def _without_scans(found: set[bytes], name: str) -> str:
+    kinds = ", ".join(sorted(kind.decode()[:20] for kind in found)[:8])
+    if not kinds:
+        return (
+            f"{name} has no line FLASER or ROBOTLASER1; a log in CARMEN format is "
+            "needed"
+        )
+    return (
+        f"{name} has no line FLASER or ROBOTLASER1, which say what was seen and from "
+        f"where; its lines are {kinds}"
+    )
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, bytes]]:
@@ -293,17 +326,16 @@ def _flaser(words: _Words) -> _Line:
     n = words.count("of beams", 1)
     ranges = words.ranges(n)
     pose, odometry = (words.numbers(3, what) for what in ("of the pose", "of odometry"))
-    step = np.pi / (n if n % 2 == 0 else max(n - 1, 1))
-    first = -0.5 * np.pi if n > 1 else 0.0
-    if n == 401:  # the LMS200's other field of view: 100 degrees
-        step, first = np.radians(0.25), np.radians(-50.0)
-    laser = _Laser(n, first, float(step), LMS_RANGE_M)
+    half_turn_by = n if n % 2 == 0 else max(n - 1, 1)
+    step = float(np.radians(STEPS_DEG.get(n, 180.0 / half_turn_by)))
+    # Of an even number, the last beam to the left is left out.
+    laser = _Laser(n, -(n // 2) * step, step, LMS_RANGE_M)
     return _Line(laser, ranges, pose, odometry, words.time_s())
 
 
 def _robotlaser(words: _Words) -> _Line:
     # Type, start, field of view, step, reach, accuracy, kind of remission.
-    _, first, _, step, most, _, _ = words.numbers(7, "of the range finder")
+    kind, first, _, step, most, _, _ = words.numbers(7, "of the range finder")
     n = words.count("of beams", 1)
     ranges = words.ranges(n)
     words.numbers(words.count("of remissions"), "of remissions", pose=False)
@@ -314,5 +346,7 @@ def _robotlaser(words: _Words) -> _Line:
             f"{words.where}: beams must lie within one turn and reach more than 0 m; "
             f"got steps of {step:g} rad and {most:g} m"
         )
+    if kind == SICK_LMS:
+        most = min(most, LMS_RANGE_M)
     laser = _Laser(n, float(first), float(step), float(most))
     return _Line(laser, ranges, pose, robot, words.time_s())

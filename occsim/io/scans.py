@@ -143,7 +143,10 @@ def metric_scans(
     scale = checked_length("metres_per_px", metres_per_px)
     # A log of scans in metres: what is wrong is refused before a map is made.
     poses, bearings, ranges = map(np.asarray, (poses_m, bearings_rad, ranges_m))
-    metric = ScanLog(poses, bearings, ranges, max_range_m)
+    try:
+        metric = ScanLog(poses, bearings, ranges, max_range_m)
+    except OccsimError as error:  # it names arrays in px, these are in metres
+        raise type(error)(str(error).replace("_px", "_m")) from None
     most = usable = metric.max_range_px
     if usable_range_m is not None:
         usable = min(checked_length("usable_range_m", usable_range_m), most)
@@ -212,7 +215,8 @@ def load(
     Parameters
     ----------
     source : bytes, str or Path
-        The file's content, or where it is: the arrays that `dump` writes, float64.
+        The file's content, or where it is: the arrays that `dump` writes, of real
+        numbers.
     metres_per_px, usable_range_m
         As in `metric_scans`.
     max_range_m : float, optional
@@ -253,7 +257,12 @@ def load(
         error=RobotFileError,
     )
     arrays = unpacked(
-        data, _ARRAYS, what="scans", max_values=MAX_RANGES, error=RobotFileError
+        data,
+        _ARRAYS,
+        what="scans",
+        max_values=MAX_RANGES,
+        error=RobotFileError,
+        any_real=True,
     )
     if arrays["max_range_m"].size != 1:
         raise RobotFileError("max_range_m must be one number")

@@ -72,9 +72,10 @@ def load(
         A TUM file's content, or where it is.
     scans : bytes, str or Path
         NPZ with the arrays ``times_s`` (S,), ``bearings_rad`` (B,), ``ranges_m``
-        (S, B) and ``max_range_m``, float64; or CSV, a first line ``time_s`` and the B
-        bearings in rad, then a line for each scan, its time in s and its ranges in m.
-        Bearings to the left of the heading; ``inf`` is no return, ``nan`` invalid.
+        (S, B) and ``max_range_m``, real numbers; or CSV, a first line ``time_s`` and
+        the B bearings in rad, then a line for each scan, its time in s and its ranges
+        in m. Bearings to the left of the heading; ``inf`` is no return, ``nan``
+        invalid.
     metres_per_px, usable_range_m
         As in `occsim.io.scans.metric_scans`.
     max_range_m : float, optional
@@ -141,7 +142,7 @@ def is_timed_scans(data: bytes) -> bool:
     (True, False)
     """
     if not data.startswith(_ZIP):
-        return data.removeprefix(_BOM).startswith(b"time_s")
+        return data.removeprefix(_BOM).lstrip(b'"').startswith(b"time_s")
     try:
         return "times_s.npy" in names_in(data, what="timed scans", needed="NPZ")
     except OccsimError:
@@ -239,7 +240,12 @@ def _from_npz(
     data: bytes, name: str
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:
     arrays = unpacked(
-        data, _ARRAYS, what="timed scans", max_values=MAX_RANGES, error=RobotFileError
+        data,
+        _ARRAYS,
+        what="timed scans",
+        max_values=MAX_RANGES,
+        error=RobotFileError,
+        any_real=True,
     )
     if arrays["max_range_m"].size != 1:
         raise RobotFileError(f"max_range_m of {name} must be one number")
@@ -254,6 +260,7 @@ def _from_csv(
     data: bytes, name: str
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:
     header, _, rest = data.removeprefix(_BOM).partition(b"\n")
+    header = header.replace(b'"', b"")  # tables are often written with quoted titles
     titles = header[:MAX_HEADER_BYTES].split(b",")
     if titles[0].strip() != b"time_s" or len(titles) < 2:
         raise RobotFileError(
@@ -261,7 +268,7 @@ def _from_csv(
             "between commas"
         )
     bearings = _table(b",".join(titles[1:]), f"the first line of {name}", ",", 1)[0]
-    rows = _table(rest, name, ",", MAX_SCANS)
+    rows = _table(rest, name, ",", MAX_SCANS, first_line=2)
     if rows.shape[1] != len(titles):
         raise RobotFileError(
             f"each line of {name} must have {len(titles)} numbers; got {rows.shape[1]}"
@@ -269,29 +276,54 @@ def _from_csv(
     ranges = rows[:, 1:]
     hits = ranges[np.isfinite(ranges)]
     if not hits.size or not hits.max() > 0.0:
-        raise RobotFileError(f"{name} has no range above 0")
+        raise RobotFileError(f"at least one range of {name} must be above 0")
     return rows[:, 0], bearings, ranges, float(hits.max())
 
 
-def _table(data: bytes, name: str, delimiter: str | None, most: int) -> FloatArray:
+def _table(
+    data: bytes, name: str, delimiter: str | None, most: int, *, first_line: int = 1
+) -> FloatArray:
     """Return the numbers of a text file with as many on each line."""
+    data = data.removeprefix(_BOM)
     n_lines = data.count(b"\n") + 1
     if n_lines > 2 * most + 1000:
         raise RobotFileError(f"{name} may have {most:,} lines; got {n_lines:,}")
     if delimiter and data.count(delimiter.encode()) > MAX_RANGES:
         raise RobotFileError(f"{name} may have {MAX_RANGES:,} ranges; it has more")
     if not any(line.strip() and line[:1] != b"#" for line in io.BytesIO(data)):
-        raise RobotFileError(f"{name} has no numbers")  # NumPy would warn
+        raise RobotFileError(f"numbers are needed in {name}")  # NumPy would warn
     try:
         table: npt.NDArray[np.float64] = np.loadtxt(
-            io.StringIO(data.decode("ascii")),
+            io.StringIO(data.decode("ascii", "replace")),  # comments may be anything
             comments="#",
             delimiter=delimiter,
             ndmin=2,
         )
-    except ValueError as error:  # UnicodeDecodeError, too
-        reason = printable(str(error).splitlines()[0].partition(";")[0])
-        raise RobotFileError(f"{name} is no table of numbers: {reason}") from None
+    except ValueError:
+        damage = _damage(data, delimiter, first_line)
+        raise RobotFileError(f"{damage} of {name}") from None
     if len(table) > most:
         raise RobotFileError(f"{name} may have {most:,} lines of numbers")
     return table
+
+
+def _damage(data: bytes, delimiter: str | None, first_line: int) -> str:
+    """Return what is wrong with which line of a table that NumPy refused."""
+    sep, count = delimiter.encode() if delimiter else None, 0
+    for number, line in enumerate(io.BytesIO(data), first_line):
+        words = line.partition(b"#")[0].strip()
+        parts = words.split(sep) if words else []
+        if not parts:
+            continue
+        for part in parts:
+            try:
+                float(part)
+            except ValueError:
+                got = printable(part.decode("ascii", "replace").strip()[:40])
+                return f'numbers are needed; got "{got}" in line {number}'
+        count = count or len(parts)
+        if len(parts) != count:
+            return (
+                f"{count} numbers a line are needed; got {len(parts)} in line {number}"
+            )
+    return "a table of numbers is needed; got another text instead"

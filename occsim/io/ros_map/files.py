@@ -32,7 +32,7 @@ LEVEL_FREE, LEVEL_UNKNOWN, LEVEL_OCCUPIED = 254, 205, 0
 
 PIXELS_AT_ONCE = 1 << 20
 
-_NEEDED = "the .yaml and the image of a ROS map"
+_NEEDED = "a ROS map, a .yaml with its image,"
 
 
 def load(

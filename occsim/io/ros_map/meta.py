@@ -20,7 +20,7 @@ NEEDED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_th
 Yaml = str | list[str]
 """A value as it is written, without quotes; a list of such."""
 
-_KEY = re.compile(r"([A-Za-z_]\w*)\s*:(?:\s+(.*))?$")
+_KEY = re.compile(r"""["']?([A-Za-z_]\w*)["']?\s*:(?:\s+(.*))?$""")
 _NUMBER = re.compile(r"[-+]?(\d{1,50}(\.\d{0,50})?|\.\d{1,50})([eE][-+]?\d{1,3})?$")
 _TRUE = {"true", "yes", "on", "y"}
 _FALSE = {"false", "no", "off", "n"}
@@ -157,7 +157,7 @@ def _values(text: str, name: str) -> dict[str, Yaml]:
     for number, raw in enumerate(text.splitlines(), 1):
         line = _without_comment(raw).rstrip()
         bare = line.strip()
-        if not bare or bare in ("---", "..."):
+        if not bare or bare in ("---", "...") or raw.startswith("%YAML"):
             continue
         known = values.get(key)
         if open_list and isinstance(known, str):
