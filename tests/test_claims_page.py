@@ -17,7 +17,7 @@ from occsim.study.claims import (
 )
 from occsim.study.published import SOURCE_CELLS_PX
 from pages._ui import compute
-from pages._ui.priors import claiming
+from pages._ui.priors import claiming, solving
 from tests.test_priors_pages import STUDY, open_with, press, texts
 
 ONCE = Condition(rule=UpdateRule.PRIOR_ONCE)
@@ -29,7 +29,7 @@ def results():
     """All samples at the source's cell sizes; the page finds them in the store."""
     return list(
         judged(
-            compute.claims_case(compute.sample(name), cell_px, lambda done, total: None)
+            solving.claims_case(compute.sample(name), cell_px, lambda done, total: None)
             for name in sample_names()
             for cell_px in SOURCE_CELLS_PX
         )

@@ -106,8 +106,10 @@ def test_pages_do_no_arithmetic_on_arrays(path):
     assert not top_level & {"numpy", "cv2", "scipy", "pandas"}
 
 
-def test_settings_are_declared_without_streamlit():
-    path = ROOT / "pages" / "_ui" / "settings.py"
+@pytest.mark.parametrize(
+    "path", python_files("pages/_ui/settings"), ids=lambda p: p.stem
+)
+def test_settings_are_declared_without_streamlit(path):
     assert "streamlit" not in {m.split(".")[0] for m in imported_modules(path)}
 
 

@@ -46,6 +46,7 @@ from pages._ui.priors import (
     maps,
     reliability,
     search_figures,
+    solving,
     surface_figures,
     surfaces,
 )
@@ -336,7 +337,7 @@ def test_the_reliability_of_the_map_is_drawn_without_empty_bins():
 def test_the_calibration_error_of_the_map_handed_over_is_said():
     app = open_with(BEST, handover=Handover.BITS)
     run = best_prior_run(app)
-    prior = compute.best_in_bits(run, UpdateRule.PRIOR_ONCE)
+    prior = solving.best_in_bits(run, UpdateRule.PRIOR_ONCE)
     final = run.mapped.map(prior, UpdateRule.PRIOR_ONCE)
     error = measured(final, run.mapped.truth_cells).expected_calibration_error
     assert f"Fewest bits {percent(error)}" in texts(app)
@@ -349,13 +350,13 @@ def test_a_drawing_without_ground_truth_gets_the_estimate_of_the_others():
         compute.reference_run(name, Settings()).mapped for name in ("a", "b", "c", "e")
     ]
     expected = estimated_prior([(one.wall_cells, one.truth_cells) for one in others])
-    prior = compute.calibrated(of)
+    prior = solving.calibrated(of)
     assert (prior.p_free_wall, prior.p_free_space) == expected
 
 
 def test_answers_are_tried_on_other_drawings_and_other_tours():
     of = compute.run(compute.sample("d"), Settings(range_px=20))
-    places = compute.transfer_runs(of)
+    places = solving.transfer_runs(of)
     others = {run.building.title for run in places["other drawings"]}
     assert others == {compute.sample(name).title for name in "abce"}
     tours = [run.building.trajectory for run in places["other tours"]]
@@ -367,7 +368,7 @@ def test_answers_are_tried_on_other_drawings_and_other_tours():
 def test_other_drawings_have_their_own_walls_and_the_same_errors(source):
     """c, d and e have one size: the drawing of d is right for d and wrong for e."""
     of = compute.run(compute.sample("c"), Settings(prior_drawing=source, range_px=20))
-    for run in compute.other_drawings(of):
+    for run in solving.other_drawings(of):
         own = run.building.wall_mask
         mirrored = own[:, ::-1] if source is PriorDrawing.MIRRORED else own
         assert (run.mapped.wall_cells == wall_cells(mirrored, run.mapped.grid)).all()
@@ -637,7 +638,7 @@ def test_an_undefined_map_is_at_no_distance(run_b):
 @pytest.mark.parametrize("objectives", Objectives)
 def test_a_search_never_exceeds_the_exact_front(run_b, objectives):
     settings = Settings(objectives=objectives, n_gen=30, pop_size=60, seed=3)
-    steps = list(compute.search(run_b, settings))
+    steps = list(solving.search(run_b, settings))
     assert [step.number for step in steps] == list(range(1, 31))
     assert max(step.share for step in steps) <= 1.0 + 1e-12
     assert (steps[0].seen is None) == (objectives is Objectives.EXACT)

@@ -22,10 +22,9 @@ from occsim.corrections import unpack_mask
 from occsim.io.images import drawing_png
 from occsim.io.project import Project, dump_project
 from occsim.walls import WallParams, detect_walls
-from pages._ui import compute
 from pages._ui.compute import with_walls
 from pages._ui.state import OPENING
-from pages._ui.your_building import poses
+from pages._ui.your_building import detecting, poses
 from tests.boards import committed_tiles
 from tests.test_pages import control, launch, png, rooms, said, upload
 
@@ -74,7 +73,7 @@ def test_doubtful_pieces_are_counted_and_go_to_the_board():
     sent = app.session_state["boards"]["board_walls"].imposed.doubtful
     assert unpack_mask(sent, drawing.shape).sum() == found.doubtful.sum()
     other = replace(own(app), found=~found.mask)
-    assert compute.doubtful(other) == b""
+    assert detecting.doubtful(other) == b""
 
 
 def with_rooms():

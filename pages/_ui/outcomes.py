@@ -27,7 +27,7 @@ from pages._ui.choices import CHOICES, PriorDrawing
 from pages._ui.columns import Column
 from pages._ui.course import COURSE
 from pages._ui.examples import others
-from pages._ui.priors import maps
+from pages._ui.priors import maps, solving
 from pages._ui.priors.answers import best_f2
 from pages._ui.priors.scores import BLANK
 from pages._ui.runs import Run
@@ -259,7 +259,7 @@ def peak_of_recall() -> Outcome:
         truth_share=chosen.truth_share,
     )
     cases = [
-        compute.study_case(compute.sample(name), cell_px, study)
+        solving.study_case(compute.sample(name), cell_px, study)
         for name in sample_names()
         for cell_px in SOURCE_CELLS_PX
     ]

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from occsim import Prior, Region, UpdateRule
 from occsim.priors import recommend
-from pages._ui import compute, state
+from pages._ui import state
 from pages._ui.choices import Handover
+from pages._ui.priors import solving
 from pages._ui.runs import Run
 
 
@@ -40,8 +41,8 @@ def all_answers(run: Run) -> list[Answer]:
     """Every answer for a run, the recommended one first."""
     once, subtract = UpdateRule.PRIOR_ONCE, UpdateRule.SUBTRACT_PRIOR
     found = {
-        Handover.CALIBRATED: (compute.calibrated(run), once),
-        Handover.BITS: (compute.best_in_bits(run, once), once),
+        Handover.CALIBRATED: (solving.calibrated(run), once),
+        Handover.BITS: (solving.best_in_bits(run, once), once),
         Handover.ONCE: (best_f2(run, once), once),
         Handover.SUBTRACT: (best_f2(run, subtract), subtract),
         Handover.CHOSEN: (state.prior(), state.settings().rule),

@@ -24,7 +24,8 @@ from occsim.study.claims import (
     tally,
 )
 from occsim.study.published import SOURCE_CELLS_PX
-from pages._ui import compute, shell, state, words
+from pages._ui import shell, state, words
+from pages._ui.priors import solving
 
 LABELS = {
     "rule": "Update rule",
@@ -82,7 +83,7 @@ def _judged(drawings: list[Building]) -> list[Judged]:
                 bar.progress(share, f"{done} of {len(pairs)} cases judged")
 
         try:
-            cases.append(compute.claims_case(drawing, cell_px, show))
+            cases.append(solving.claims_case(drawing, cell_px, show))
         except OccsimError as error:
             refused[drawing.name] = str(error)
     bar.empty()

@@ -9,7 +9,15 @@ from occsim._types import IntArray
 from occsim.priors import ParetoFront, near_front
 from pages._ui import compute, controls, glossary, shell, state, words
 from pages._ui.controls import chart
-from pages._ui.priors import front_figures, fronts, maps, marks, scores, surfaces
+from pages._ui.priors import (
+    front_figures,
+    fronts,
+    maps,
+    marks,
+    scores,
+    solving,
+    surfaces,
+)
 from pages._ui.priors.front_figures import Mark
 from pages._ui.priors.scores import BLANK
 from pages._ui.runs import Run
@@ -31,7 +39,7 @@ def all_drawings(run: Run) -> None:
 def _fronts_and_region(runs: dict[str, Run]) -> None:
     settings = state.settings()
     values = surfaces.axis(STEP)
-    sweeps = [compute.sweep(run, values) for run in runs.values()]
+    sweeps = [solving.sweep(run, values) for run in runs.values()]
     all_fronts = [run.front for run in runs.values()]
     overlay, region = st.columns([5, 4], gap="medium")
     with overlay:

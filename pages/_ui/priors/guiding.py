@@ -18,10 +18,11 @@ from occsim.priors import set_c
 from pages._ui import compute, controls, palette, shell, state, words
 from pages._ui.choices import CHOICES, FrontAxes, Handover, Picture
 from pages._ui.controls import chart
-from pages._ui.priors import front_figures, marks, reliability, scores
+from pages._ui.priors import front_figures, marks, reliability, scores, solving
 from pages._ui.priors.answers import Answer, handed_over
 from pages._ui.priors.front_figures import Mark
 from pages._ui.runs import Run
+from pages._ui.your_building import detecting
 
 
 def drawing(run: Run) -> None:
@@ -52,7 +53,7 @@ def walls(run: Run) -> None:
     if building.truth is None:
         st.caption("There is no ground truth, so these walls serve as the world too.")
         return
-    found = compute.comparison(building)
+    found = detecting.comparison(building)
     st.caption(
         f"By image processing, so with errors: {words.percent(found.precision)} of "
         f"these pixels are wall in truth, and {words.percent(found.recall)} of the "
@@ -137,13 +138,13 @@ def _estimate(run: Run) -> str:
         )
     return (
         "Counted in this building's ground truth. Where there is none, the other "
-        f"reference drawings estimate it: {prior_text(compute.estimated(run))}"
+        f"reference drawings estimate it: {prior_text(solving.estimated(run))}"
         f"{_errors_of_others(run)}"
     )
 
 
 def _errors_of_others(run: Run) -> str:
-    if not any(other.has_errors for other in compute.other_drawings(run)):
+    if not any(other.has_errors for other in solving.other_drawings(run)):
         return ""
     return " The errors that are set were given to those drawings too."
 
@@ -188,7 +189,7 @@ def is_negative(prior: Prior) -> bool:
 def transfer(run: Run, answers: list[Answer]) -> None:
     """Step 7: each answer on the other drawings, and on other tours."""
     st.markdown(transfer_table(run, answers))
-    errors = any(other.has_errors for other in compute.other_drawings(run))
+    errors = any(other.has_errors for other in solving.other_drawings(run))
     same = ", with the same errors of the drawing" if errors else ""
     st.caption(
         "F2 of the cells looked at, and bits per cell over all cells (less is better). "
@@ -201,7 +202,7 @@ def transfer(run: Run, answers: list[Answer]) -> None:
 
 def transfer_table(run: Run, answers: list[Answer]) -> str:
     """F2 and bits of each answer here, on other drawings and on other tours."""
-    places = compute.transfer_runs(run)
+    places = solving.transfer_runs(run)
     heads = " | ".join(places)
     lines = [f"| Prior | {heads} |", "|---|" + "---:|" * len(places)]
     for title, one in with_blank(answers):
@@ -337,7 +338,7 @@ def cost(run: Run, prior: Prior) -> None:
     """The measured cost of a mapping step with this prior and without one."""
     if not run.evidence.n_readings:
         return
-    with_drawing, blank = compute.step_costs(run, [prior, Prior.uninformative()])
+    with_drawing, blank = solving.step_costs(run, [prior, Prior.uninformative()])
     st.caption(
         "**What does the prior cost while mapping?** Nothing: a step, the update of "
         "the cells of one reading, takes the same operations on the same cells with "

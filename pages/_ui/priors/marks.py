@@ -8,7 +8,8 @@ import streamlit as st
 
 from occsim import Prior
 from occsim.prior import PRIOR_SCALE
-from pages._ui import compute, palette
+from pages._ui import palette
+from pages._ui.priors import solving
 from pages._ui.priors.scores import BLANK
 from pages._ui.runs import Run
 
@@ -74,8 +75,8 @@ class MarkedPrior:
 
 def marked(run: Run) -> list[MarkedPrior]:
     """The blank prior, the source's, the calibrated one and the best in bits."""
-    best = compute.best_in_bits(run, run.settings.rule, run.settings.region)
-    priors = (BLANK, Prior(), compute.calibrated(run), best)
+    best = solving.best_in_bits(run, run.settings.rule, run.settings.region)
+    priors = (BLANK, Prior(), solving.calibrated(run), best)
     return [
         MarkedPrior(name, prior) for name, prior in zip(SYMBOLS, priors, strict=False)
     ]

@@ -8,7 +8,6 @@ from plotly.subplots import make_subplots
 from occsim.priors import ParetoFront
 from pages._ui import palette
 from pages._ui.choices import FrontAxes
-from pages._ui.compute import SearchStep
 from pages._ui.priors.front_figures import (
     WORDS,
     Drawn,
@@ -18,6 +17,7 @@ from pages._ui.priors.front_figures import (
     place,
 )
 from pages._ui.priors.fronts import scores_at
+from pages._ui.priors.solving import SearchStep
 
 SEARCH_PX = 540
 BELOW = -0.17

@@ -5,11 +5,11 @@ import contextlib
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages._ui import compute, controls, state, words
+from pages._ui import controls, state, words
 from pages._ui.choices import Objectives
-from pages._ui.compute import SearchStep
 from pages._ui.controls import chart
-from pages._ui.priors import fronts, search_figures
+from pages._ui.priors import fronts, search_figures, solving
+from pages._ui.priors.solving import SearchStep
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
@@ -23,7 +23,7 @@ def search(run: Run) -> None:
     with side:
         started = _controls()
     settings = state.settings()
-    key = compute.search_key(run, settings)
+    key = solving.search_key(run, settings)
     with stage:
         if not len(run.front):
             return
@@ -63,7 +63,7 @@ def _watch(run: Run, settings: Settings, key: object, place: DeltaGenerator) -> 
     steps: list[SearchStep] = []
     every = max(1, settings.n_gen // LIVE_FRAMES)
     bar = st.progress(0.0)
-    with contextlib.closing(compute.search(run, settings)) as generations:
+    with contextlib.closing(solving.search(run, settings)) as generations:
         for step in generations:
             steps.append(step)
             state.keep_search(key, steps)

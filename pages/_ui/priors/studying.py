@@ -20,7 +20,7 @@ from occsim.study import (
 from occsim.study.published import SOURCE_CELLS_PX
 from pages._ui import compute, shell, state, words
 from pages._ui.controls import chart
-from pages._ui.priors import front_figures
+from pages._ui.priors import front_figures, solving
 
 TITLES = {
     Objective.PRECISION: "Table 4.1: highest precision",
@@ -69,7 +69,7 @@ def run_all() -> list[StudyCase]:
     cases, refused = [], {}
     for done, (drawing, cell_px) in enumerate(pairs, start=1):
         try:
-            cases.append(compute.study_case(drawing, cell_px, settings()))
+            cases.append(solving.study_case(drawing, cell_px, settings()))
         except OccsimError as error:
             refused[drawing.name] = str(error)
         bar.progress(done / len(pairs), f"{done} of {len(pairs)} cases")

@@ -6,9 +6,8 @@ from functools import cached_property
 from occsim import Objective, PriorSweep, interpolate
 from occsim._types import FloatArray
 from occsim.prior import PRIOR_SCALE
-from pages._ui import compute
 from pages._ui.choices import Fineness, Surface
-from pages._ui.priors import scores
+from pages._ui.priors import scores, solving
 from pages._ui.runs import Run
 from pages._ui.settings import Settings
 
@@ -110,7 +109,7 @@ def _percent(
 ) -> FloatArray:
     if kind is Surface.SOURCE:
         return 100.0 * source_table(run, values, objective)
-    exact = 100.0 * compute.sweep(run, values).values(objective)
+    exact = 100.0 * solving.sweep(run, values).values(objective)
     if kind is Surface.EXACT:
         return exact
     return 100.0 * source_table(run, values, objective) - exact
@@ -141,7 +140,7 @@ def _values(settings: Settings) -> list[float]:
 
 def source_sweep(run: Run) -> PriorSweep:
     """The source's 10 x 10 pairs."""
-    return compute.sweep(run, TENTHS)
+    return solving.sweep(run, TENTHS)
 
 
 def source_table(run: Run, values: list[float], objective: Objective) -> FloatArray:

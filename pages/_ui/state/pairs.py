@@ -4,7 +4,7 @@ import streamlit as st
 
 from occsim import Prior
 from occsim.prior import PRIOR_SCALE
-from pages._ui import compute
+from pages._ui.priors import solving
 from pages._ui.settings import TABLE
 from pages._ui.state.chosen import change, settings
 
@@ -34,12 +34,12 @@ def prior() -> Prior:
     return Prior(p_wall=settings().p_wall, p_space=settings().p_space)
 
 
-def keep_search(key: object, steps: list[compute.SearchStep]) -> None:
+def keep_search(key: object, steps: list[solving.SearchStep]) -> None:
     """Keep the generations of a search so far."""
     st.session_state.search = key, steps
 
 
-def kept_search(key: object) -> list[compute.SearchStep]:
+def kept_search(key: object) -> list[solving.SearchStep]:
     """The generations kept of this search; none of another."""
     kept, steps = st.session_state.get("search", (None, []))
     return steps if kept == key else []

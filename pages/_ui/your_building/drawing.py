@@ -6,10 +6,10 @@ from functools import partial
 import streamlit as st
 
 from occsim.imaging.transform import Transform
-from pages._ui import compute, state, uploads, words
+from pages._ui import state, uploads, words
 from pages._ui.components.board import BoardMode, BoardPoint
 from pages._ui.robot_data import ros
-from pages._ui.your_building import drawn, lengths
+from pages._ui.your_building import detecting, drawn, lengths
 
 KEY = "board_crop"
 LEAST_TILT_RAD = math.radians(0.15)
@@ -47,7 +47,7 @@ def show() -> None:
 
 
 def _tilt() -> None:
-    tilt_rad = compute.tilt(state.building().drawing)
+    tilt_rad = detecting.tilt(state.building().drawing)
     is_tilted = tilt_rad is not None and abs(tilt_rad) >= LEAST_TILT_RAD
     label = "No tilt found"
     if tilt_rad is not None and is_tilted:
@@ -62,7 +62,7 @@ def _tilt() -> None:
 
 
 def _reshape(transform: Transform) -> None:
-    state.set_own(compute.reshaped(state.building(), transform))
+    state.set_own(detecting.reshaped(state.building(), transform))
 
 
 def _turn(quarters: int) -> None:

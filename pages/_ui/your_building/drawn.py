@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from occsim.corrections import pack_mask
-from pages._ui import compute, state
+from pages._ui import state
 from pages._ui.components.board import (
     BoardDocument,
     BoardMode,
@@ -13,6 +13,7 @@ from pages._ui.components.board import (
     drawing_board,
 )
 from pages._ui.state import boards as kept
+from pages._ui.your_building import detecting
 
 HEIGHT_PX = 480
 """Height that lets the board and the controls above it fit in 720 px."""
@@ -30,7 +31,7 @@ class Paper:
 def drawing_paper() -> Paper:
     """The building's drawing."""
     building = state.building()
-    return Paper(compute.backdrop(building.drawing), building.metres_per_px)
+    return Paper(detecting.backdrop(building.drawing), building.metres_per_px)
 
 
 def board(
@@ -90,7 +91,7 @@ def walls_board(key: str) -> None:
         return document(
             base=pack_mask(found),
             overlay=corrections,
-            doubtful=compute.doubtful(state.building()),
+            doubtful=detecting.doubtful(state.building()),
         )
 
     def take(drawn: BoardDocument) -> None:

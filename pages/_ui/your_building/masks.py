@@ -8,8 +8,8 @@ from occsim import Corrections
 from occsim.corrections import unpack_mask
 from occsim.io.images import class_png, mask_png
 from occsim.walls import MaskError
-from pages._ui import compute, palette, state, uploads, words
-from pages._ui.your_building import drawn
+from pages._ui import palette, state, uploads, words
+from pages._ui.your_building import detecting, drawn
 
 PICTURE_PX = drawn.HEIGHT_PX - 80
 """Height of a picture with its caption in a frame as high as the board."""
@@ -62,7 +62,7 @@ def agreement() -> None:
     if building.truth is None:
         st.caption("No ground truth yet, so there is nothing to compare with.")
         return
-    compared = compute.comparison(building)
+    compared = detecting.comparison(building)
     st.markdown(
         f"Precision **{words.percent(compared.precision)}**  \n"
         f"Recall **{words.percent(compared.recall)}**  \n"
@@ -74,7 +74,7 @@ def agreement() -> None:
 def error_picture() -> bytes:
     """Where the wall mask errs."""
     return class_png(
-        compute.comparison(state.building()).errors,
+        detecting.comparison(state.building()).errors,
         [ERROR_COLOURS[error] for error in sorted(MaskError)],
     )
 

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 import plotly.graph_objects as go
 
 from occsim.building import Building
-from pages._ui import compute, palette
+from pages._ui import palette
+from pages._ui.your_building import detecting
 
 MANY = 800
 """Arrows beyond this number would cover the drawing and slow the page."""
@@ -29,7 +30,7 @@ def poses_figure(building: Building, height_px: int) -> go.Figure:
     )
     _add_poses(figure, building, ~is_bad, "free", palette.ROBOT)
     _add_poses(figure, building, is_bad, "in a wall or outside", palette.FALSE_WALL)
-    encoded = base64.b64encode(compute.backdrop(building.drawing)).decode()
+    encoded = base64.b64encode(detecting.backdrop(building.drawing)).decode()
     figure.add_layout_image(
         source=f"data:image/png;base64,{encoded}",
         xref="x",

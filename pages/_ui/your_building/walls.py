@@ -6,9 +6,9 @@ from functools import partial
 import streamlit as st
 
 from occsim.walls import WallParams
-from pages._ui import compute, state, words
+from pages._ui import state, words
 from pages._ui.state import boards as kept
-from pages._ui.your_building import lengths, masks
+from pages._ui.your_building import detecting, lengths, masks
 from pages._ui.your_building.stages import STAGE_NOTES, Slider
 
 COLUMNS = 5
@@ -19,7 +19,7 @@ def show() -> None:
     """Show every stage with its sentence and its sliders, and where the mask errs."""
     building = state.building()
     st.markdown(_how_sure())
-    stages = compute.stage_pictures(building.drawing, building.wall_params)
+    stages = detecting.stage_pictures(building.drawing, building.wall_params)
     cells = [partial(_stage, title, image) for title, image in stages]
     cells += [_errors, _all_stages]
     for start in range(0, len(cells), COLUMNS):
@@ -32,7 +32,7 @@ def show() -> None:
 def _how_sure() -> str:
     """How sure the detection is, in a line, and what to look at first."""
     building = state.building()
-    sure = compute.detection(building.drawing, building.wall_params).certainty
+    sure = detecting.detection(building.drawing, building.wall_params).certainty
     if not building.walls_found.any():
         return (
             "**No walls were found.** Three things to try: crop to the plan "
@@ -106,7 +106,7 @@ def _all_stages() -> None:
 
 
 def _detect(params: WallParams) -> None:
-    found = compute.detection(state.building().drawing, params)
+    found = detecting.detection(state.building().drawing, params)
     state.edit_building(found=found.mask, wall_params=params)
 
 
