@@ -8,13 +8,11 @@ those are arguments.
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray
 from occsim.building import Building
 from occsim.errors import bool_array, choice
-from occsim.evidence import collect_evidence
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.mapping import OccupancyMap, UpdateRule, fuse
@@ -40,8 +38,9 @@ from occsim.priors import (
     surface_front,
     sweep_surface,
 )
+from occsim.run.readings import simulated_readings, simulated_scans
 from occsim.run.settings import MapSettings
-from occsim.scan import ScanLog, evidence_from_scans, simulate_scans
+from occsim.scan import ScanLog
 from occsim.world import truth_cells, wall_cells
 
 
@@ -118,29 +117,15 @@ class MappingRun:
     @cached_property
     def scan_log(self) -> ScanLog | None:
         """The scans behind the readings; None where these are exact."""
-        building, scan = self.building, self.settings.scan
-        if scan is None:
-            return None
-        scale, noise = building.likely_metres_per_px, scan.noise
-        return simulate_scans(
-            building.world,
-            building.trajectory,
-            self.settings.sensor,
-            scan.n_beams,
-            noise and replace(noise, metres_per_px=scale),
-            np.random.default_rng(scan.seed),
-        )
+        return simulated_scans(self.building, self.settings)
 
     @cached_property
     def evidence(self) -> EvidenceLog:
         """The readings, independent of any prior."""
         if self.log is not None:
             return self.log
-        sensor, grid = self.settings.sensor, self.grid
-        if self.scan_log is not None:
-            return evidence_from_scans(self.scan_log, sensor, grid)
-        world, trajectory = self.building.world, self.building.trajectory
-        return collect_evidence(world, trajectory, sensor, grid)
+        scans, grid = self.scan_log, self.grid
+        return simulated_readings(self.building, self.settings, scans, grid)
 
     @cached_property
     def wall_cells(self) -> BoolArray:
@@ -300,10 +285,8 @@ class MappingRun:
         """
         measure = choice("measure", measure, Measure)
         region = Region.EXPLORED if measure is Measure.F2 else Region.ALL
-        ours, blank = (
-            self.curves(one, rule, region, bits=True)
-            for one in (prior, Prior.uninformative())
-        )
+        ours = self.curves(prior, rule, region, bits=True)
+        blank = self.curves(Prior.uninformative(), rule, region, bits=True)
         return worth_in_readings(ours, blank, n_readings, measure)
 
     def surface(
