@@ -1,4 +1,4 @@
-"""Two maps, one clock: the same readings, another drawing, prior or rule in each."""
+"""Two maps: the same readings, another drawing, prior or rule in each."""
 
 import streamlit as st
 

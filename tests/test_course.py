@@ -14,7 +14,15 @@ from occsim import (
     sample_names,
 )
 from occsim.run.laps import lap_scores
-from pages._ui import compute, course, exercising, lessons, outcomes, shell, teaching
+from pages._ui import (
+    compute,
+    course,
+    exercising,
+    lessons,
+    navigation,
+    outcomes,
+    teaching,
+)
 from pages._ui.components.lens.document import LensDocument
 from pages._ui.course import COURSE
 from pages._ui.priors import answers, triptych
@@ -24,9 +32,9 @@ from pages._ui.state.lesson import lessons_of
 
 def test_the_lessons_are_numbered_and_stand_on_pages_of_the_navigation():
     assert [one.number for one in COURSE] == list(range(10))
-    assert {one.path for one in COURSE} <= {page.path for page in shell.PAGES}
+    assert {one.path for one in COURSE} <= {page.path for page in navigation.PAGES}
     further = {path for one in COURSE for path in one.further}
-    assert further <= {page.path for page in shell.PAGES}
+    assert further <= {page.path for page in navigation.PAGES}
 
 
 @pytest.mark.parametrize("lesson", COURSE[1:], ids=lambda one: one.title)
@@ -52,7 +60,7 @@ def test_a_link_names_a_lesson_of_its_page_only():
 
 
 def test_every_page_of_exercises_is_a_page():
-    assert set(exercising.FOLDER_PAGES.values()) <= {p.path for p in shell.PAGES}
+    assert set(exercising.FOLDER_PAGES.values()) <= {p.path for p in navigation.PAGES}
 
 
 # --- What was predicted ---------------------------------------------------------------

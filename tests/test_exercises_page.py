@@ -41,7 +41,7 @@ def predict(app, option=0):
 
 
 def words(app):
-    kinds = (app.markdown, app.caption, app.info, app.success)
+    kinds = (app.title, app.markdown, app.caption, app.info, app.success)
     return "\n".join(text for kind in kinds for text in said(kind))
 
 

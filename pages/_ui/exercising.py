@@ -17,26 +17,23 @@ def is_here() -> bool:
 
 
 def panel() -> None:
-    """Draw the exercise that is open, on its page."""
+    """Draw the exercise that is open, on its page, in place of the page's heading."""
     exercise = state.active()
     if exercise is None or not is_here():
         return
     kept.watch(exercise)
+    title = f"Exercise {exercise.number}: {words.prose(exercise.title)}"
+    st.title(title, anchor=False)
     with st.container(border=True, key="exercise"):
         task, answer = st.columns([3, 2], gap="large")
         with task:
-            title = f"Exercise {exercise.number}: {words.prose(exercise.title)}"
-            st.markdown(f"**{title}{_stop(exercise)}** {words.prose(exercise.goal)}")
+            st.markdown(words.prose(exercise.goal))
             _hints(exercise)
         with answer:
             if _has_predicted(exercise):
                 _questions(exercise)
                 _verdict(exercise)
         _buttons(exercise)
-
-
-def _stop(exercise: Exercise) -> str:
-    return "" if exercise.title.endswith("?") else "."
 
 
 def _has_predicted(exercise: Exercise) -> bool:
@@ -138,8 +135,9 @@ def all_exercises() -> None:
     solved = sum(kept.attempt_of(one).is_solved for one in found)
     judged = sum(not one.is_open for one in found)
     st.progress(solved / judged, text=f"{solved} of {judged} solved")
-    for exercise in found:
-        _row(exercise)
+    with st.container(key="exercises"):
+        for exercise in found:
+            _row(exercise)
     _hand_in()
 
 

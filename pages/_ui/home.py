@@ -6,7 +6,7 @@ import streamlit as st
 
 from occsim import UpdateRule
 from occsim.building import Building
-from pages._ui import lessons, outcomes, shell, state, teaching, words
+from pages._ui import lessons, navigation, outcomes, state, teaching, words
 from pages._ui.classroom import voting
 from pages._ui.columns import HOME_COLUMNS
 from pages._ui.components.player import PlayerDocument
@@ -18,7 +18,7 @@ YOUR_BUILDING = "pages/2_Your_building.py"
 OWN, WRONG = HOME_COLUMNS[1:]
 FINDING = "The wrong drawing now beats the right one. Find out why: lesson 5."
 ARROW = ":material/arrow_forward:"
-LABELS = {page.path: page.label for page in shell.PAGES}
+LABELS = {page.path: page.label for page in navigation.PAGES}
 
 
 # --- What the maps come to ------------------------------------------------------------
@@ -60,7 +60,7 @@ def plans() -> None:
     """Ways through the lessons, by the time that one has."""
     st.header("I have", anchor=False)
     st.markdown("**2 minutes.** Watch the maps above, then compare two of them.")
-    st.page_link(TWO_MAPS, label="Two maps, one clock", icon=ARROW)
+    st.page_link(TWO_MAPS, label="Two maps", icon=ARROW)
     for minutes in teaching.PLANS:
         with st.expander(f"**{minutes} minutes.** A lesson for a class"):
             _plan(minutes)

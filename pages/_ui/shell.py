@@ -5,16 +5,14 @@ import functools
 import importlib
 import logging
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import streamlit as st
-from streamlit.errors import StreamlitPageNotFoundError
 
 from occsim import OccsimError
-from pages._ui import exercising, lessons, memory, state, words
+from pages._ui import exercising, lessons, memory, navigation, state, words
 from pages._ui.components.address import address
-from pages._ui.course import COURSE
+from pages._ui.navigation import PAGES, Page
 from pages._ui.qr import qr_popover
 
 LOG = logging.getLogger(__name__)
@@ -27,91 +25,6 @@ memory.use_few_arenas()
 
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
-
-@dataclass(frozen=True, slots=True)
-class Page:
-    """One page; the table below has them in the order of the navigation."""
-
-    path: str
-    label: str
-    purpose: str
-
-
-PAGES = (
-    Page(
-        "app.py",
-        "Home",
-        "What this is, and where to begin.",
-    ),
-    Page(
-        "pages/0_What_the_sensor_says.py",
-        "What the sensor says",
-        "One reading, pixel by pixel: what it says of a cell, and how readings add up.",
-    ),
-    Page(
-        "pages/1_Build_a_map.py",
-        "Build a map",
-        "A robot drives through a building and maps it, reading by reading; the map "
-        "starts from the architect's drawing.",
-    ),
-    Page(
-        "pages/3_Two_maps.py",
-        "Two maps, one clock",
-        "The same readings, two or three maps: click a word of a header to change the "
-        "drawing, the prior or the rule of one of them.",
-    ),
-    Page(
-        "pages/4_What_is_a_good_map.py",
-        "What is a good map?",
-        "Four counts of cells, and precision and recall as two shares of them.",
-    ),
-    Page(
-        "pages/5_Sweep_the_priors.py",
-        "Sweep the priors",
-        "Every pair of prior values gives a map, and every map has a precision and a "
-        "recall: here they are, all at once.",
-    ),
-    Page(
-        "pages/6_Pareto_explorer.py",
-        "Pareto explorer",
-        "Precision and recall of a map often conflict: these are the best compromises "
-        "of the two, and the map that each of them gives.",
-    ),
-    Page(
-        "pages/7_Best_prior.py",
-        "Best prior",
-        "All steps for one drawing: from its walls to the best prior map, to download.",
-    ),
-    Page(
-        "pages/8_Study.py",
-        "Study",
-        "All reference drawings at the source's three cell sizes, beside what the "
-        "source published.",
-    ),
-    Page(
-        "pages/2_Your_building.py",
-        "Your building",
-        "Upload a drawing: detect its walls, correct them by hand, set the ground "
-        "truth, and sketch the robot's path.",
-    ),
-    Page(
-        "pages/4_Robot_data.py",
-        "Robot data",
-        "A robot's own log of scans as a map in metres; maps of ROS in and out.",
-    ),
-    Page(
-        "pages/9_Exercises.py",
-        "Exercises",
-        "Find out for yourself: each exercise opens a page with everything set, and is "
-        "judged by what you set there.",
-    ),
-    Page(
-        state.CLASS_PATH,
-        "Class",
-        "For teachers: prepare a page for your students, let them vote, collect what "
-        "they hand in. No accounts, no names.",
-    ),
-)
 
 # Streamlit leaves 6 rem above the first line and wide gaps between blocks; the first
 # screen must show map and controls at 1280 x 720.
@@ -132,12 +45,20 @@ CSS = """
 /* As high as a link while it is loaded: what is below must not move. */
 .st-key-lessons > div { height: 1.25rem; }
 .st-key-lessons { column-gap: 0.25rem; }
+.st-key-lessons a { padding-inline: 0.4rem; }
+.occsim-group { display: block; width: 1px; height: 1.25rem; background: currentColor;
+    opacity: 0.3; }
 /* A lesson stands above its maps: it takes as little height as it can. */
-.st-key-lesson { padding: 0.5rem 1rem; gap: 0.25rem; }
+.st-key-lesson, .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem; }
 .st-key-lesson [data-testid="stMarkdownContainer"] { margin-bottom: 0; }
 .st-key-lesson [data-testid="stMarkdownContainer"] p { font-size: 0.9375rem;
     line-height: 1.4; margin-bottom: 0.25rem; }
 .st-key-lesson button, .st-key-lesson_ways a { min-height: 2rem; padding-block: 0; }
+/* The whole list on one screen: columns from 480 px on. */
+.st-key-exercises { display: block; columns: 480px; }
+.st-key-exercises > div { break-inside: avoid; margin-bottom: 0.5rem; }
+.st-key-exercises > div > div { flex-wrap: nowrap; }
+.st-key-exercises > div > div > :first-child { flex: none; }
 /* The page one is on is the clearest item, not the dimmest. */
 .st-key-current_page a, .st-key-current_page a * {
     color: inherit; opacity: 1; font-weight: 700;
@@ -180,6 +101,12 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
     .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .st-key-lesson button { min-height: 2.75rem; }
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
+    /* Columns stand below each other: as far apart as other blocks. */
+    [data-testid="stHorizontalBlock"] { row-gap: 0.75rem; }
+    /* A value on one line: the table is swiped. */
+    [data-testid="stMarkdownContainer"] td + td { white-space: nowrap; }
+    .st-key-ending { gap: 0.25rem; }
+    .st-key-ending button { padding-inline: 0.5rem; }
     /* Choices that do not fit side by side stand in rows: none may hide. */
     [data-testid="stButtonGroup"] > div { flex-wrap: wrap; }
     .st-key-home_maps { min-height: calc(3 * clamp(100px, (100vh - 430px) / 3, 150px)
@@ -245,7 +172,7 @@ def page(path: str) -> Iterator[Page]:
     state.finish()
     state.take_kept()
     state.follow_link(path)
-    _navigation(path)
+    navigation.draw(path)
     if state.link_notice(path):
         st.warning(state.link_notice(path))
     with _last_resort(path):
@@ -349,35 +276,8 @@ def _ending() -> None:
         st.button("Reset all", on_click=state.reset_all)
 
 
-def _navigation(path: str) -> None:
-    # A page that is run by itself, as a test may do, has no other pages to go to.
-    with (
-        contextlib.suppress(StreamlitPageNotFoundError),
-        st.container(horizontal=True, key="lessons"),
-    ):
-        for item in PAGES:
-            is_current = item.path == path
-            # A key of its own: a lost connection disables all links alike.
-            key = "current_page" if is_current else None
-            with st.container(key=key, width="content"):
-                st.page_link(item.path, label=item.label, disabled=is_current)
-        if state.projector():
-            _lesson_keys()
-
-
-def _lesson_keys() -> None:
-    """The lessons by their numbers, which are the keys that open them."""
-    with st.container(horizontal=True, key="lesson_keys", width="content"):
-        for lesson in COURSE[1:]:
-            st.page_link(
-                lesson.path,
-                label=str(lesson.number),
-                query_params={"lesson": str(lesson.number)},
-            )
-
-
 def heading(here: Page) -> None:
-    """Draw the title of a page and its one sentence of purpose, or its open lesson."""
-    if not lessons.heading():
+    """Draw a page's title and purpose, unless an exercise or a lesson is open."""
+    if not exercising.is_here() and not lessons.heading():
         st.title(here.label, anchor=False)
         st.caption(here.purpose)

@@ -7,7 +7,7 @@ the reason why it stays.
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from pages._ui.shell import PAGES
+from pages._ui.navigation import PAGES
 
 pytestmark = pytest.mark.browser
 

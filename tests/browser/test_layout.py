@@ -2,11 +2,13 @@
 
 import pytest
 
-from pages._ui import shell
+from pages._ui import navigation
 
 pytestmark = pytest.mark.browser
 
-PAGES = [one.path.rpartition("/")[2].partition("_")[2][:-3] for one in shell.PAGES[1:]]
+PAGES = [
+    one.path.rpartition("/")[2].partition("_")[2][:-3] for one in navigation.PAGES[1:]
+]
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844)], ids=["laptop", "phone"])
@@ -21,6 +23,16 @@ def test_nothing_runs_past_the_right_edge(chromium, app_url, path, size):
     past_the_edge = page.evaluate("document.documentElement.scrollWidth - innerWidth")
     assert past_the_edge <= 0
     context.close()
+
+
+def test_the_navigation_is_one_row_on_a_small_laptop(page, app_url):
+    page.goto(f"{app_url}/Study")
+    page.locator(".st-key-ending").get_by_text("Reset all").wait_for()
+    links = [link.bounding_box() for link in page.locator(".st-key-lessons a").all()]
+    assert len(links) == len(navigation.PAGES)
+    assert len({box["y"] for box in links}) == 1
+    # A window has a scroll bar of 15 px, which the headless browser has not.
+    assert links[-1]["x"] + links[-1]["width"] <= 1280 - 32 - 15
 
 
 @pytest.mark.parametrize("section", [1, 2, 4, 5, 6])
@@ -73,6 +85,32 @@ def test_the_map_stays_in_sight_of_its_controls(
         control.evaluate("node => node.scrollIntoView({block: 'end'})")
         assert is_whole_on_screen(control)
         assert is_whole_on_screen(player.locator(picture))
+
+
+@pytest.mark.parametrize("section", [4, 5])
+def test_the_board_s_sliders_can_be_moved_on_a_telephone(phone, app_url, section):
+    phone.goto(f"{app_url}/Your_building?section={section}")
+    phone.locator(".board[data-ready='1']").wait_for()
+    for slider in phone.locator(".board input[type=range]").all():
+        assert slider.bounding_box()["width"] >= 40
+
+
+def test_an_exercise_stands_beside_its_button_on_a_telephone(phone, app_url):
+    phone.goto(f"{app_url}/Exercises")
+    row = phone.locator(".st-key-exercises > div").filter(has_text="What is behind")
+    button = row.get_by_role("button", name="Open").bounding_box()
+    title = row.get_by_text("What is behind the pillar?").bounding_box()
+    assert title["x"] >= button["x"] + button["width"]
+    assert abs(title["y"] - button["y"]) < button["height"]
+
+
+def test_the_last_row_is_one_row_on_a_telephone(phone, app_url):
+    phone.goto(f"{app_url}/Study")
+    ending = phone.locator(".st-key-ending")
+    ending.get_by_text("Reset all").wait_for()
+    copy, reset = (ending.get_by_text(name) for name in ("Copy link", "Reset all"))
+    copy.wait_for()
+    assert abs(copy.bounding_box()["y"] - reset.bounding_box()["y"]) < 10
 
 
 def test_two_maps_and_their_headers_fit_a_telephone(phone, app_url):

@@ -7,7 +7,7 @@ import streamlit as st
 
 from occsim import OccsimError
 from occsim.exercises import Exercise
-from pages._ui import compute, openings, shell, state, words
+from pages._ui import compute, navigation, openings, shell, state, words
 from pages._ui.choices import CHOICES
 from pages._ui.classroom.kept import CLASSES
 from pages._ui.classroom.prepared import (
@@ -24,7 +24,7 @@ SHOW, LOCK, HIDE = "show", "lock", "hide"
 MAX_FILE_MB = 1
 OWN_FILES = "class_exercises"
 MADE = "class_made"
-TITLES = {page.path: page.label for page in shell.PAGES}
+TITLES = {page.path: page.label for page in navigation.PAGES}
 
 
 def section() -> None:
