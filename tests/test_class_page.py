@@ -15,6 +15,7 @@ from pages._ui.classroom import handed_in as module
 from pages._ui.classroom.kept import CLASSES
 from pages._ui.classroom.prepared import Prepared, packed
 from pages._ui.classroom.rooms import ROOMS
+from pages._ui.judging import judged
 from pages._ui.limits import NAMES, OF_PAGES
 from pages._ui.progress import Attempt, Tried
 from tests.test_exercises_page import press
@@ -155,6 +156,78 @@ def test_hiding_every_control_hides_no_map():
         assert "map_player" in names
 
 
+def address(app):
+    """The query of the address line of a page."""
+    boxes = app.get("bidi_component")
+    [data] = [one.proto.json for one in boxes if one.proto.component_name == "address"]
+    return json.loads(json.loads(data))["query"]
+
+
+def code_of(app):
+    return links(app)[0].partition("class=")[2]
+
+
+def test_a_reload_keeps_what_a_student_of_a_class_put_back_to_its_default():
+    """The class has p_wall 0.3; 0.2 is the default of every drawing."""
+    app = at(BUILD, **{"class": code_of(prepared())})
+    app.selectbox(key=control(app, "choice")).set_value("a").run()
+    state = app.session_state
+    state["settings"] = replace(state["settings"], p_wall=0.2)
+    state["imposed"] = {}
+    app.run()
+    again = at(BUILD, **address(app)).session_state
+    assert (again["choice"], again["settings"]) == ("a", state["settings"])
+
+
+def with_exercise(name="first_wall"):
+    app = teacher()
+    app.selectbox(key="view_class_exercise").set_value(name).run()
+    press(app, "Make the link")
+    return app
+
+
+def test_a_reload_does_not_open_again_the_exercise_of_a_class_that_was_left():
+    app = follow(links(with_exercise())[0])
+    press(app, "Leave the exercise")
+    again = at(BUILD, **address(app))
+    assert again.session_state["exercise"] is None
+    assert again.session_state["class_link"]
+
+
+@pytest.mark.parametrize("more", [{}, {"drawing": "d"}])
+def test_another_exercise_in_the_link_does_not_show_what_a_class_hides(more):
+    """Exercise 3 does not hold the rule, which the class hides."""
+    name = "two_readings_disagree"
+    link = {"class": code_of(prepared()), "exercise": name, **more}
+    app = at(BUILD, **link).session_state
+    assert app["exercise"] == name
+    assert app["settings"].rule.value == "prior_once"
+
+
+def test_another_exercise_does_not_show_what_a_class_hides_in_the_lens():
+    lens = "pages/0_What_the_sensor_says.py"
+    texts = {"lens_rule": "subtract_prior"}
+    text = packed(Prepared(page=lens, texts=texts, hide=("rule",)))
+    app = at(lens, plan=text)
+    assert app.session_state["lens_chosen"].rule.value == "subtract_prior"
+    app.switch_page("pages/9_Exercises.py").run()
+    app.button(key="open_two_readings_disagree").click().run()
+    app.switch_page(lens).run()
+    assert app.session_state["lens_chosen"].rule.value == "prior_once"
+    app.switch_page(BUILD).run()
+    press(app, "Leave the exercise")
+    app.switch_page(lens).run()
+    assert app.session_state["lens_chosen"].rule.value == "subtract_prior"
+
+
+def test_a_locked_transport_stays_at_the_step_of_the_class():
+    texts = {"drawing": "d", "step": "100"}
+    text = packed(Prepared(page=BUILD, texts=texts, lock=("transport",)))
+    for more in ({}, {"step": "7"}, {"drawing": "d"}, {"drawing": "d", "step": "7"}):
+        app = at(BUILD, plan=text, **more)
+        assert app.session_state["played"]["map_player"].step == 100
+
+
 # --- Own exercises --------------------------------------------------------------------
 
 
@@ -199,6 +272,37 @@ def test_an_exercise_that_is_refused_is_said_in_one_sentence():
     assert not follow(links(app)[0]).session_state["prepared"].exercises
 
 
+def test_an_exercise_of_ones_own_takes_the_place_of_ours_with_its_id():
+    app = teacher()
+    mine = EXERCISES[4].read_text().replace("The first wall", "Mine")
+    give(app, ("mine.toml", mine.encode()))
+    press(app, "Make the link")
+    student = follow(links(app)[0])
+    student.switch_page("pages/9_Exercises.py").run()
+    assert not student.error
+    assert sum(one.label == "Open" for one in student.button) == 23
+    assert "Mine" in "\n".join(said(student.markdown))
+
+
+def test_two_files_with_one_id_are_said_to_be_so():
+    app = teacher()
+    give(app, ("a.toml", OWN.encode()), ("b.toml", OWN.encode()))
+    assert said(app.error) == ["b.toml: another file has the id 'mine' as well"]
+    # Numbered as the students see it.
+    assert "Proven: 1. My <b>wall</b>" in said(app.markdown)
+
+
+def test_a_class_is_passed_on_with_its_exercises():
+    app = teacher()
+    give(app, ("mine.toml", OWN.encode()))
+    press(app, "Make the link")
+    other = follow(links(app)[0])
+    other.switch_page(CLASS).run()
+    other.selectbox(key="view_class_exercise").set_value("mine").run()
+    press(other, "Make the link")
+    assert follow(links(other)[0]).session_state["exercise"] == "mine"
+
+
 # --- Vote -----------------------------------------------------------------------------
 
 
@@ -218,6 +322,39 @@ def test_students_answer_in_a_room_and_see_the_bars_when_they_are_shown():
     assert ROOMS.seen(code).counts == (0, 2, 1)
     students[0].run()
     assert not [one for one in students[0].button if one.key == "vote_0"]
+
+
+def test_a_room_that_the_teacher_closes_is_closed_for_all():
+    app = teacher("Vote")
+    press(app, "Open a room")
+    code, _ = app.session_state["room"]
+    student = at(CLASS, room=code)
+    press(app, "Close this room and ask another")
+    assert ROOMS.seen(code) is None
+    student.run()
+    assert "closed" in said(student.warning)[0]
+
+
+def test_a_session_votes_by_the_word_that_its_browser_kept():
+    code, _ = ROOMS.open("Will it?", ("yes", "no"))
+    word = "0123456789abcdef"
+    for option in (0, 1):  # a reload: the session is new
+        student = at(CLASS, room=code)
+        student.session_state["address"] = {"kept": {"progress": "", "voter": word}}
+        student.run()
+        student.button(key=f"vote_{option}").click().run()
+    assert ROOMS.seen(code, word).n_answers == 1
+    assert ROOMS.seen(code, word).mine == 1
+
+
+@pytest.mark.parametrize("kept", ["", 7, {}, {"voter": "<b>"}, {"voter": ["x"]}])
+def test_a_browser_that_keeps_nonsense_votes_all_the_same(kept):
+    code, _ = ROOMS.open("Will it?", ("yes", "no"))
+    student = at(CLASS, room=code)
+    student.session_state["address"] = {"kept": kept}
+    student.run()
+    student.button(key="vote_0").click().run()
+    assert ROOMS.seen(code).n_answers == 1
 
 
 def test_a_link_to_a_room_without_its_key_shows_no_tally():
@@ -316,6 +453,49 @@ def test_thirty_files_are_judged_anew_and_an_edited_one_shows(handed_in):
     assert "1 result differs" in said(app.warning)[0]
     bars = [one.proto.text for one in app.get("progress")]
     assert bars == ["yes: 30", "no: 0"]
+
+
+def renamed(text, name):
+    given = json.loads(text)
+    given["exercises"] = {name: given["exercises"].pop("run_the_control")}
+    return json.dumps(given).encode()
+
+
+TEN = EXERCISES[9].read_text().replace('id = "run_the_control"', 'id = "mine"')
+
+
+def test_exercises_of_ones_own_are_judged_as_soon_as_their_files_are_given(handed_in):
+    app = teacher()
+    give(app, ("mine.toml", TEN.encode()))
+    app.segmented_control(key="view_class_section").set_value("Collect").run()
+    give(app, ("a.json", renamed(handed_in, "mine")), ("b.json", handed_in.encode()))
+    assert not app.warning
+    found = table(app)
+    assert [name for name in found if name.startswith("1. ")]
+    assert (found == "solved").to_numpy().sum() == 2
+
+
+def test_exercises_that_are_not_known_here_are_said_to_be_there(handed_in):
+    app = collect(("a.json", renamed(handed_in, "mine")))
+    assert "1 exercise that this page does not know" in said(app.warning)[0]
+
+
+def test_two_exercises_of_one_title_have_columns_of_their_own():
+    one = next(one for one in compute.exercises() if one.number == 1)
+    other = replace(one, id="mine")
+    assert module.column_names([one, other]) == {
+        one.id: f"{module.title(one)} ({one.id})",
+        "mine": f"{module.title(one)} (mine)",
+    }
+
+
+def test_exercises_of_one_id_are_not_judged_for_one_another(handed_in):
+    """Two teachers use one id; only the reference that the check speaks of differs."""
+    attempt = progress.from_text(handed_in).attempts["run_the_control"]
+    mine = next(one for one in compute.exercises() if one.id == "run_the_control")
+    assert judged(mine, attempt).is_solved
+    harder = replace(mine, setup=replace(mine.setup, cell_px=9), page="two_maps")
+    assert judged(harder, attempt).numbers != judged(mine, attempt).numbers
 
 
 @pytest.mark.parametrize(

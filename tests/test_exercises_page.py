@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from streamlit.testing.v1 import AppTest
 
+from occsim import UpdateRule
 from pages._ui import compute
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.progress import FORMAT, Attempt
@@ -147,6 +148,16 @@ def test_leaving_keeps_what_was_set():
     press(app, "Leave the exercise")
     assert app.session_state["exercise"] is None
     assert app.session_state["settings"].rule.value == "subtract_prior"
+
+
+def test_leaving_does_not_tell_what_was_hidden_to_be_found_out():
+    app = opened("which_rule")
+    state = app.session_state
+    hidden = UpdateRule.SUBTRACT_PRIOR
+    state["settings"] = replace(state["settings"], rule=hidden, p_wall=0.4)
+    press(app, "Leave the exercise")
+    assert state["settings"].rule is UpdateRule.PRIOR_ONCE
+    assert state["settings"].p_wall == 0.4
 
 
 def test_progress_is_a_file():

@@ -137,6 +137,13 @@ def own_exercises(texts: tuple[str, ...]) -> tuple[Exercise, ...]:
     return tuple(found.values())
 
 
+def exercises_with(texts: tuple[str, ...]) -> tuple[Exercise, ...]:
+    """A teacher's exercises, then ours: one of theirs takes the place of its id."""
+    own = own_exercises(texts)
+    taken = {one.id for one in own}
+    return *own, *(one for one in exercises() if one.id not in taken)
+
+
 def proven(text: str, name: str) -> Exercise:
     """The exercise of a file, proven.
 

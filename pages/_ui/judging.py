@@ -132,8 +132,9 @@ class Judged:
 
 def judged(exercise: Exercise, attempt: Attempt) -> Judged:
     """Judge an attempt anew; shared by all who ask for the same one."""
-    asked = exercise.id, exercise.checks, exercise.right_reason, attempt.is_solved
-    return _judged(repr((asked, sorted(attempt.tried.items()))), exercise, attempt)
+    # All of the exercise: a teacher's own may differ in its reference alone.
+    asked = exercise, attempt.is_solved, sorted(attempt.tried.items())
+    return _judged(repr(asked), exercise, attempt)
 
 
 @shared()

@@ -165,7 +165,7 @@ def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
     shown = _ours(exercise.show)
     locked = _ours(exercise.lock)
     others = _OF_THE_MAP - shown - locked if exercise.show else frozenset()
-    hidden = others | _ours(exercise.hide)
+    hidden = others | told_by(exercise)
     if not hidden | locked:
         return NONE
     is_held = "drawing" in hidden | locked
@@ -176,6 +176,11 @@ def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
         drawing=exercise.setup.drawing if is_held else "",
         by=f"exercise {exercise.number}",
     )
+
+
+def told_by(exercise: Exercise) -> frozenset[str]:
+    """The controls whose values would tell what an exercise asks."""
+    return _ours(exercise.hide)
 
 
 def _ours(names: Iterable[str]) -> frozenset[str]:

@@ -260,6 +260,7 @@ def _ending() -> None:
             note=note,
             unsaved=not kept,
             progress=state.progress(),
+            session=state.drawn_word(),
             projector=state.projector(),
             has_button=may_be_shared,
             key="address",

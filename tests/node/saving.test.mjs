@@ -95,3 +95,9 @@ test("a text in a PNG has its length and its checksum", async () => {
   // A letter that Latin-1 has not is not written as another one's two bytes.
   assert.deepEqual(Array.from(bytes.subarray(8, 16)), [..."Title\0a\xff"].map((c) => c.charCodeAt(0)));
 });
+
+test("a file does not tell what is hidden on the page", () => {
+  const values = { rule: "prior_once", fov_rad: 1, p_wall: 0.2 };
+  const hidden = ["rule", "fov_deg", "cell_px"];
+  assert.deepEqual(player.toldValues(values, hidden, { fov_rad: "fov_deg" }), { p_wall: 0.2 });
+});

@@ -62,15 +62,17 @@ def files(rng: random.Random) -> dict[str, object]:
 
 
 OVERTAKEN = ("/media/", "Download Button source error")
+KEY_TOO_EARLY = "Cannot rerun script when disconnected"
+"""Streamlit's own key r, pressed before the page has its connection."""
 
 
 def is_serious(complaint: str) -> bool:
-    """Whether a line on the console is more than a file of an overtaken run.
+    """Whether a line on the console is more than a run or a key out of time.
 
     A picture of a run that the next click interrupted may be gone when the browser asks
     for it; the next run sends its own.
     """
-    return not any(word in complaint for word in OVERTAKEN)
+    return not any(word in complaint for word in (*OVERTAKEN, KEY_TOO_EARLY))
 
 
 class Student:

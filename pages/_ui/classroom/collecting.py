@@ -1,10 +1,13 @@
 """Collect: the files of a class, judged anew. Nothing of them is kept."""
 
+from collections.abc import Sequence
+
 import streamlit as st
 
 from occsim import OccsimError
-from pages._ui import shell, state, words
-from pages._ui.classroom import handed_in
+from occsim.exercises import Exercise
+from pages._ui import shell, words
+from pages._ui.classroom import handed_in, own_files
 from pages._ui.classroom.handed_in import MAX_FILES, Student
 from pages._ui.exercise_pages import shown_option
 
@@ -27,30 +30,41 @@ def section() -> None:
     )
     if len(files) > MAX_FILES:
         shell.say_error(f"At most {MAX_FILES} files are judged at once.")
+    known = own_files.known()
     students = [
         student
         for file in files[:MAX_FILES]
-        if (student := _student(file.name, file.getvalue())) is not None
+        if (student := _student(file.name, file.getvalue(), known)) is not None
     ]
     if students:
-        _table(students)
-        _predictions(students)
+        found = handed_in.begun(students, known)
+        _table(students, found)
+        _say_unknown(handed_in.n_unknown(students, known))
+        _predictions(students, found)
 
 
-def _student(name: str, data: bytes) -> Student | None:
+def _say_unknown(n: int) -> None:
+    if n:
+        what = "1 exercise" if n == 1 else f"{n} exercises"
+        st.warning(
+            f"The files also hold {what} that this page does not know. Give your own "
+            "under Prepare, or open the link of the class first."
+        )
+
+
+def _student(name: str, data: bytes, known: Sequence[Exercise]) -> Student | None:
     try:
         progress = handed_in.read(data, name)
     except OccsimError as error:
         shell.say_error(str(error))
         return None
-    return handed_in.student_of(progress, name, state.exercises())
+    return handed_in.student_of(progress, name, known)
 
 
-def _table(students: list[Student]) -> None:
-    found = handed_in.begun(students, state.exercises())
+def _table(students: list[Student], found: Sequence[Exercise]) -> None:
+    names = handed_in.column_names(found)
     rows = [
-        {"student": one.name}
-        | {f"{e.number}. {e.title}": handed_in.status(one, e) for e in found}
+        {"student": one.name} | {names[e.id]: handed_in.status(one, e) for e in found}
         for one in students
     ]
     st.dataframe(rows, hide_index=True, width="stretch")
@@ -72,22 +86,18 @@ def _table(students: list[Student]) -> None:
     )
 
 
-def _predictions(students: list[Student]) -> None:
-    asked = [
-        one
-        for one in handed_in.begun(students, state.exercises())
-        if one.prediction is not None
-    ]
+def _predictions(students: list[Student], found: Sequence[Exercise]) -> None:
+    asked = [one for one in found if one.prediction is not None]
     if not asked:
         return
     st.header("What was predicted", anchor=False)
-    titles = {one.id: f"{one.number}. {one.title}" for one in asked}
+    titles = handed_in.column_names(asked)
     chosen = st.selectbox(
         "Exercise", list(titles), format_func=titles.__getitem__, width=480
     )
     exercise = next(one for one in asked if one.id == chosen)
     st.markdown(words.prose(exercise.prediction.text.strip()))
-    found = handed_in.predictions(students, exercise)
-    for option, count in found.items():
+    counts = handed_in.predictions(students, exercise)
+    for option, count in counts.items():
         label = words.prose(shown_option(option))
-        st.progress(count / max(1, sum(found.values())), text=f"{label}: {count}")
+        st.progress(count / max(1, sum(counts.values())), text=f"{label}: {count}")

@@ -88,6 +88,26 @@ def begun(students: Sequence[Student], exercises: Sequence[Exercise]) -> list[Ex
     ]
 
 
+def column_names(exercises: Sequence[Exercise]) -> dict[str, str]:
+    """What each exercise is called in a table, by its id; no two alike."""
+    titles = Counter(title(one) for one in exercises)
+    return {
+        one.id: title(one) if titles[title(one)] == 1 else f"{title(one)} ({one.id})"
+        for one in exercises
+    }
+
+
+def title(exercise: Exercise) -> str:
+    """An exercise in a list."""
+    return f"{exercise.number}. {exercise.title}"
+
+
+def n_unknown(students: Sequence[Student], exercises: Sequence[Exercise]) -> int:
+    """How many exercises the files hold that are not among some."""
+    begun_ids = {name for student in students for name in student.progress.attempts}
+    return len(begun_ids - {one.id for one in exercises})
+
+
 def predictions(students: Sequence[Student], exercise: Exercise) -> dict[str, int]:
     """How often each prediction was made; those that nobody made as well."""
     asked = exercise.prediction

@@ -5,24 +5,17 @@ from urllib.parse import urlencode, urljoin
 
 import streamlit as st
 
-from occsim import OccsimError
 from occsim.exercises import Exercise
-from pages._ui import compute, navigation, openings, shell, state, words
+from pages._ui import navigation, openings, shell, state, words
 from pages._ui.choices import CHOICES
+from pages._ui.classroom import handed_in, own_files
 from pages._ui.classroom.kept import CLASSES
-from pages._ui.classroom.prepared import (
-    MAX_EXERCISES,
-    ClassError,
-    Prepared,
-    packed,
-)
+from pages._ui.classroom.prepared import ClassError, Prepared, packed
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.limits import NAMES, OF_PAGES, OUTPUTS
 from pages._ui.qr import qr_html
 
 SHOW, LOCK, HIDE = "show", "lock", "hide"
-MAX_FILE_MB = 1
-OWN_FILES = "class_exercises"
 MADE = "class_made"
 TITLES = {page.path: page.label for page in navigation.PAGES}
 
@@ -35,9 +28,9 @@ def section() -> None:
         "what you hide stays as it is as well. Maps and scores stay on the page unless "
         "you hide them."
     )
-    own = _own_files()
+    own_files.section()
     with st.container(horizontal=True):
-        exercise = _exercise(own)
+        exercise = _exercise()
         page = FOLDER_PAGES[exercise.page] if exercise else _page()
     hide, lock = ((), ()) if exercise else _rows(page)
     if st.button("Make the link", type="primary"):
@@ -109,65 +102,17 @@ def _value(name: str) -> str:
 # --- Exercises ------------------------------------------------------------------------
 
 
-def _exercise(own: list[Exercise]) -> Exercise | None:
+def _exercise() -> Exercise | None:
     """The exercise that the link opens; None for a page as it is set."""
-    offered = {one.id: one for one in (*own, *compute.exercises())}
+    offered = {one.id: one for one in own_files.known()}
     chosen = st.selectbox(
         "Exercise that the link opens",
         ["", *offered],
-        format_func=lambda name: _title(offered[name]) if name else "none",
+        format_func=lambda name: handed_in.title(offered[name]) if name else "none",
         width=480,
         **state.bind_view("class_exercise", ""),
     )
     return offered.get(chosen)
-
-
-def _title(exercise: Exercise) -> str:
-    return f"{exercise.number}. {exercise.title}"
-
-
-def _own_files() -> list[Exercise]:
-    """Take files of exercises; prove each at once."""
-    with st.expander("Exercises of your own"):
-        st.markdown(
-            "TOML files, as those in `assets/exercises`. Each is proven at once: not "
-            "solved at its set-up, solved at its witness. They travel with the link."
-        )
-        given = st.file_uploader(
-            "Files of exercises",
-            type="toml",
-            accept_multiple_files=True,
-            max_upload_size=MAX_FILE_MB,
-            **_bound_files(),
-        )
-        proven = [_proven(name, text) for name, text in state.view(OWN_FILES, ())]
-        if len(given) > MAX_EXERCISES:
-            shell.say_error(f"At most {MAX_EXERCISES} files are taken.")
-    return [one for one in proven if one is not None]
-
-
-def _bound_files() -> dict[str, Any]:
-    key = "class_files"
-    return {"key": key, "on_change": lambda: _take_files(key)}
-
-
-def _take_files(key: str) -> None:
-    files = state.value(key) or []
-    texts = [
-        (file.name, file.getvalue().decode("utf-8", "replace"))
-        for file in files[:MAX_EXERCISES]
-    ]
-    state.set_view(OWN_FILES, tuple(texts))
-
-
-def _proven(name: str, text: str) -> Exercise | None:
-    try:
-        found = compute.proven(text, name)
-    except OccsimError as error:
-        shell.say_error(str(error))
-        return None
-    st.markdown(f"Proven: {words.plain(_title(found))}")
-    return found
 
 
 # --- The link -------------------------------------------------------------------------
@@ -182,16 +127,8 @@ def _prepared(
     texts = (
         openings.texts_of_exercise(exercise) if exercise else state.state_texts(page)
     )
-    own = [text for name, text in state.view(OWN_FILES, ()) if _is_good(name, text)]
-    return Prepared(page=page, texts=texts, hide=hide, lock=lock, exercises=tuple(own))
-
-
-def _is_good(name: str, text: str) -> bool:
-    try:
-        compute.proven(text, name)
-    except OccsimError:
-        return False
-    return True
+    own = own_files.texts()
+    return Prepared(page=page, texts=texts, hide=hide, lock=lock, exercises=own)
 
 
 def _make(prepared: Prepared) -> None:

@@ -159,6 +159,19 @@ class Rooms:
         with self._lock:
             self._room(code).is_shown = shown
 
+    def close(self, code: str, key: str) -> None:
+        """Close a room, for those who are in it as well.
+
+        Raises
+        ------
+        RoomError
+            Where there is no such room, or the key is another's.
+        """
+        if not self.is_key(code, key):
+            raise RoomError("Only who opened this room can close it.")
+        with self._lock:
+            self._rooms.pop(code, None)
+
     def _room(self, code: str) -> _Room:
         room = self._rooms.get(code)
         if room is None:

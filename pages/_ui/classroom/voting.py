@@ -3,7 +3,8 @@
 import streamlit as st
 
 from occsim import OccsimError
-from pages._ui import compute, shell, state, words
+from pages._ui import shell, state, words
+from pages._ui.classroom import handed_in, own_files
 from pages._ui.classroom.kept import typed
 from pages._ui.classroom.preparing import link_to
 from pages._ui.classroom.rooms import (
@@ -21,7 +22,10 @@ from pages._ui.qr import qr_html
 EVERY = "2s"
 """How often those who wait ask for news."""
 OWN_QUESTION = "A question of my own"
-GONE = "This room is closed. Rooms are kept for three hours, and none over a restart."
+GONE = (
+    "This room is closed: by your teacher, after three hours, or by a restart of the "
+    "server."
+)
 
 
 def section() -> None:
@@ -56,11 +60,11 @@ def _questions() -> dict[str, tuple[str, tuple[str, ...]]]:
     """The questions that are ready to ask: title, question, options."""
     story = STORY["answers"]
     ready = {"Home: the three maps": (STORY["question"], tuple(story.values()))}
-    for one in compute.exercises():
+    for one in own_files.known():
         asked = one.prediction
         if asked is not None:
             options = tuple(shown_option(option) for option in asked.options)
-            ready[f"Exercise {one.number}: {one.title}"] = (asked.text, options)
+            ready[f"Exercise {handed_in.title(one)}"] = (asked.text, options)
     return ready
 
 
@@ -113,6 +117,7 @@ def _of_teacher(code: str, key: str) -> None:
         st.header(words.plain(ROOMS.seen(code).question), anchor=False)
         _tally(code, key)
         if st.button("Close this room and ask another"):
+            ROOMS.close(code, key)
             state.enter_room("")
             st.rerun()
     with right:

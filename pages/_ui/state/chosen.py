@@ -15,15 +15,14 @@ from pages._ui.classroom.kept import CLASSES, typed
 from pages._ui.classroom.prepared import Prepared
 from pages._ui.course import lesson_in
 from pages._ui.settings import Settings, decode, encode, with_changes
-from pages._ui.state import opening
 from pages._ui.state.classes import (
     class_in_link,
-    class_texts,
     enter_class,
     enter_room,
     room_in_link,
+    with_class,
 )
-from pages._ui.state.held import class_drawing, class_now, keep_settings, limits
+from pages._ui.state.held import base, keep_settings, limits
 from pages._ui.state.lens import forget_lens, lens_in_link, open_lens, reset_lens
 from pages._ui.state.opening import OWN, defaults
 from pages._ui.state.replay import (
@@ -80,7 +79,7 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state = st.session_state
     notices = enter_class(query)
     enter_room(query.get("room", ""), query.get("key", ""))
-    query = {**class_texts(), **query}
+    query = with_class(query)
     state.projector = query.get("projector") == "1"
     state.own, state.work = None, None
     state.path = path
@@ -102,7 +101,7 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     held = limits().drawing
     state.choice = held or state.choice
     state.chosen = state.choice == OWN or "drawing" in query or bool(held)
-    found, more = decode(query, defaults(state.choice))
+    found, more = decode(query, base())
     keep_settings(found)
     wrong += more
     state.played = dict(NEW_PLAYED)
@@ -130,14 +129,6 @@ def link_notice(path: str) -> str:
     """What was wrong with the link that opened this page; empty on other pages."""
     opened, words = st.session_state.link_notice
     return words if path == opened else ""
-
-
-def base() -> Settings:
-    """The settings that this session's drawing opens with, those of its class first."""
-    prepared = class_now()
-    if prepared is not None and class_drawing(prepared) == choice():
-        return opening.of_class(prepared, choice())
-    return defaults(choice())
 
 
 def settings() -> Settings:

@@ -1,5 +1,6 @@
 """The class that a session is in, and the room in which it votes."""
 
+import re
 import secrets
 from collections.abc import Mapping
 
@@ -9,6 +10,7 @@ from pages._ui.classroom.kept import CLASSES, typed
 from pages._ui.classroom.prepared import ClassError, unpacked
 from pages._ui.state.held import class_now
 
+WORD = re.compile(r"[0-9a-f]{16}")
 CLASS_PATH = "pages/10_Class.py"
 NO_CLASS = (
     "The class of this link is not on this server: the code is mistyped, the server "
@@ -32,10 +34,17 @@ def enter_class(query: Mapping[str, str]) -> list[str]:
     return []
 
 
-def class_texts() -> Mapping[str, str]:
-    """What the class says of the state, as in a link."""
+def with_class(query: Mapping[str, str]) -> Mapping[str, str]:
+    """What a link says, after what its class says where it only opens the class.
+
+    The address of a student in the class names a drawing and says all that differs; a
+    link to another exercise opens that one, with nothing of the class in it.
+    """
     prepared = class_now()
-    return {} if prepared is None else prepared.texts
+    if prepared is None or query.keys() & {"drawing", "work"}:
+        return query
+    is_other = query.get("exercise", "") not in ("", prepared.texts.get("exercise"))
+    return query if is_other else {**prepared.texts, **query}
 
 
 def class_in_link() -> dict[str, str]:
@@ -51,9 +60,20 @@ def came_from() -> str:
 # --- Voting ---------------------------------------------------------------------------
 
 
+def drawn_word() -> str:
+    """A word that this session drew by lot."""
+    return st.session_state.setdefault("drawn_word", secrets.token_hex(8))
+
+
+def take_voter(given: object) -> None:
+    """Vote as this browser did before, by the word that its first session drew."""
+    if isinstance(given, str) and WORD.fullmatch(given):
+        st.session_state.voter = given
+
+
 def voter() -> str:
-    """Who votes in this session: a word drawn by lot, no name."""
-    return st.session_state.setdefault("voter", secrets.token_hex(8))
+    """Who votes: a word drawn by lot, no name; it stays in the student's browser."""
+    return st.session_state.get("voter", drawn_word())
 
 
 def room() -> tuple[str, str]:

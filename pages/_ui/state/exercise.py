@@ -17,6 +17,7 @@ from occsim.exercises import (
 )
 from occsim.samples import sample_names
 from pages._ui import compute, openings
+from pages._ui.components.lens.document import OPENING as LENS_OPENING
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.judging import (
     LENS_PAGE,
@@ -39,7 +40,8 @@ from pages._ui.state.chosen import (
     renew_widgets,
     state_texts,
 )
-from pages._ui.state.held import keep_settings, limits
+from pages._ui.state.classes import take_voter
+from pages._ui.state.held import class_now, close_exercise, keep_settings, limits
 from pages._ui.state.lens import set_lens, take_from_lens
 from pages._ui.state.lesson import lessons_row, rows, take_lessons
 from pages._ui.state.replay import (
@@ -73,11 +75,10 @@ def exercise_id() -> str | None:
 
 
 def leave_exercise() -> None:
-    """Close the exercise; what was set stays, but for what the class holds."""
-    st.session_state.exercise = None
+    """Close the exercise; the drawing and the place are as the class holds them."""
+    close_exercise()
     if limits().drawing:
         choose(limits().drawing)
-    keep_settings(st.session_state.settings)
     forget_player()
 
 
@@ -89,6 +90,8 @@ def open_exercise(exercise: Exercise) -> None:
     keep_settings(openings.of_exercise(exercise))
     if exercise.page == LENS_PAGE:
         set_lens(openings.lens_of_exercise(exercise))
+    elif class_now() is not None:
+        set_lens(LENS_OPENING)  # what the class hides in it is not held meanwhile
     key = _player_of(exercise)
     last = exercise.setup.step
     n_readings = len(building().trajectory)
@@ -224,15 +227,35 @@ def progress() -> str:
 
 
 def take_kept() -> None:
-    """Take the progress that the browser kept, once it has sent it."""
+    """Take what the browser kept, once it has sent it."""
     state = st.session_state
-    text = (state.get("address") or {}).get("kept")
-    if not isinstance(text, str) or text == state.get("kept"):
+    given = (state.get("address") or {}).get("kept")
+    if not isinstance(given, Mapping) or given == state.get("kept"):
         return
-    state.kept = text
-    found = kept_progress(text)
-    state.attempts = dict(found.attempts) | attempts()
+    state.kept = given
+    take_voter(given.get("voter"))
+    text = given.get("progress")
+    found = kept_progress(text if isinstance(text, str) else "")
+    state.attempts = furthest(attempts(), found.attempts)
     take_lessons(found.lessons)
+
+
+def furthest(
+    mine: Mapping[str, Attempt], others: Mapping[str, Attempt]
+) -> dict[str, Attempt]:
+    """Return every attempt; of two at one exercise that which came further.
+
+    What a browser sends may be older than the session, or another window's.
+    """
+    none = Attempt()
+    return {
+        name: max(mine.get(name, none), others.get(name, none), key=_how_far)
+        for name in {**others, **mine}
+    }
+
+
+def _how_far(one: Attempt) -> tuple[int, ...]:
+    return one.is_solved, one.n_checks, one.n_hints, one.first is not None
 
 
 def progress_text() -> str:

@@ -4,7 +4,7 @@ The settings are stored here alone, so that a value that is held is put back wha
 set it: a widget, a component, a link, or an undo.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import streamlit as st
 
@@ -23,8 +23,7 @@ TEACHER = "your teacher"
 def exercises() -> tuple[Exercise, ...]:
     """The exercises that this session can open: those of its class come first."""
     prepared = class_now()
-    own = compute.own_exercises(prepared.exercises) if prepared else ()
-    return *own, *compute.exercises()
+    return compute.exercises_with(prepared.exercises if prepared else ())
 
 
 def active() -> Exercise | None:
@@ -58,6 +57,30 @@ def limits() -> Limits:
     )
 
 
+def base() -> Settings:
+    """The settings that this session's drawing opens with, those of its class first.
+
+    An exercise that is none of the class has nothing of the class in it.
+    """
+    prepared, name = class_now(), st.session_state.choice
+    if prepared is None or class_drawing(prepared) != name:
+        return opening.defaults(name)
+    exercise = active()
+    if exercise is not None and exercise.id != prepared.texts.get("exercise"):
+        return opening.defaults(name)
+    return opening.of_class(prepared, name)
+
+
+def held_place() -> Mapping[str, str]:
+    """The step at which the exercise or the class opens, as in a link."""
+    exercise, prepared = active(), class_now()
+    if exercise is not None:
+        texts: Mapping[str, str] = openings.texts_of_exercise(exercise)
+    else:
+        texts = prepared.texts if prepared is not None else {}
+    return {name: text for name, text in texts.items() if name == "step"}
+
+
 def class_drawing(prepared: Prepared) -> str:
     """The drawing of a class; the one that is shown where it names none."""
     named = prepared.texts.get("drawing")
@@ -67,6 +90,15 @@ def class_drawing(prepared: Prepared) -> str:
 def keep_settings(settings: Settings) -> None:
     """Store the settings, with all that is held at its value."""
     st.session_state.settings = limits().kept(settings)
+
+
+def close_exercise() -> None:
+    """Close the exercise; what was set stays, but for what it hid to ask for it."""
+    exercise = active()
+    st.session_state.exercise = None
+    hid = rules.told_by(exercise) if exercise else frozenset()
+    opened = Limits(hidden=hid, settings=base())
+    keep_settings(opened.kept(st.session_state.settings))
 
 
 def limits_of(names: Iterable[str]) -> Limits:

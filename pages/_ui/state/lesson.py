@@ -10,7 +10,7 @@ from pages._ui.components.lens.document import OPENING
 from pages._ui.course import COURSE, Lesson, lesson_in
 from pages._ui.settings import with_changes
 from pages._ui.state.chosen import choice, choose, renew_widgets, settings
-from pages._ui.state.held import keep_settings
+from pages._ui.state.held import close_exercise, keep_settings
 from pages._ui.state.lens import LENS_PATH, set_lens
 from pages._ui.state.opening import defaults
 from pages._ui.state.replay import (
@@ -68,8 +68,7 @@ def visit(one: Lesson) -> None:
 
 def set_up(one: Lesson) -> None:
     """Set everything as a lesson opens."""
-    state = st.session_state
-    state.exercise = None
+    close_exercise()
     if one.drawing:
         choose(one.drawing)
     base = defaults(choice()) if one.drawing else settings()

@@ -16,7 +16,7 @@ from pages._ui.components.player import (
 )
 from pages._ui.components.player.document import with_place
 from pages._ui.settings import Settings, with_changes
-from pages._ui.state.held import keep_settings, limits
+from pages._ui.state.held import held_place, keep_settings, limits
 
 PLAYER_KEY = "map_player"
 TWO_MAPS_KEY = "two_maps"
@@ -188,8 +188,10 @@ def place_in_replay(building: Building, path: str) -> dict[str, str]:
 def go_to_place(texts: Mapping[str, str]) -> None:
     """Open the replay at the position in a link, if it is valid."""
     key = player_at(st.session_state.path)
-    is_held = "transport" in limits().held
-    played = with_place(st.session_state.played[key], texts, is_held)
+    if "transport" in limits().held:
+        others = {name: text for name, text in texts.items() if name != "step"}
+        texts = {**others, **held_place()}
+    played = with_place(st.session_state.played[key], texts)
     if key == HOME_KEY and "home_rule" in texts:
         commit = encode_document(played)
         for column in commit["columns"]:

@@ -23,6 +23,7 @@ def address(
     unsaved: bool = False,
     has_button: bool = True,
     progress: str = "",
+    session: str = "",
     projector: bool = False,
     key: str,
 ) -> None:
@@ -40,7 +41,9 @@ def address(
         Whether the button is shown.
     progress : str
         What the browser is to keep of what was done. What it kept before, it commits
-        as "kept", once.
+        as "kept", with the lot by which it votes.
+    session : str
+        A word that this session drew; empty where the browser is to keep nothing.
     projector : bool
         Whether the keys 1 to 9 open the lessons, and space plays.
     key : str
@@ -52,6 +55,7 @@ def address(
         "unsaved": unsaved,
         "hasButton": has_button,
         "progress": progress,
+        "session": session,
         "projector": projector,
     }
     component(COMPONENT, FOLDER, SCRIPTS)(

@@ -5,7 +5,7 @@ const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
   const { data, parentElement, setStateValue } = component;
-  const { query, note, unsaved, hasButton, progress, projector } = JSON.parse(data);
+  const { query, note, unsaved, hasButton, progress, session, projector } = JSON.parse(data);
   const root = parentElement.querySelector(".address");
   const said = root.querySelector(".said");
   root.hidden = !hasButton;
@@ -13,7 +13,7 @@ export default function (component) {
   heedLeaving(unsaved);
   heedConnection();
   heedKeys(projector);
-  if (hasButton) keepProgress(progress, setStateValue);
+  if (session) keepProgress(progress, session, setStateValue);
   showCurrentPage();
   letWideScroll();
   root.querySelector("button").onclick = () => copy(said, note);
@@ -60,18 +60,25 @@ function heedKeys(projector) {
 }
 
 const PROGRESS = "occsim.progress";
+const VOTER = "occsim.voter";
 
-// What was done outlives a reload and the server; a browser may forbid storage. What it
-// kept is sent to a new session first, and comes back with what that has.
-function keepProgress(progress, send) {
+// What was done outlives a reload and the server, and a reload gives no second vote; a
+// browser may forbid storage. What this window has not seen, because its session is new or
+// another window wrote it, is sent first and comes back with what the session has.
+function keepProgress(progress, session, send) {
+  const isNew = window.occsimSession !== session;
+  if (isNew) Object.assign(window, { occsimSession: session, occsimProgress: null });
   try {
-    const kept = window.localStorage.getItem(PROGRESS);
-    if (kept && !window.occsimSentProgress) send("kept", kept);
-    else if (progress) window.localStorage.setItem(PROGRESS, progress);
+    const { localStorage } = window;
+    if (!localStorage.getItem(VOTER)) localStorage.setItem(VOTER, session);
+    const [kept, voter] = [PROGRESS, VOTER].map((name) => localStorage.getItem(name));
+    const isUnseen = kept !== window.occsimProgress;
+    window.occsimProgress = kept;
+    if (isUnseen || (isNew && voter !== session)) send("kept", { progress: kept ?? "", voter });
+    else if (progress) localStorage.setItem(PROGRESS, (window.occsimProgress = progress));
   } catch {
     // Nothing is kept then.
   }
-  window.occsimSentProgress = true;
 }
 
 function heedLeaving(unsaved) {

@@ -32,12 +32,24 @@ function withRobot({ canvas, state, scale, colours }) {
 }
 
 function cellItems(p) {
-  const { state } = p;
   const { q, pFree, which } = selectedOf(p);
-  const sensor = `Range ${state.range} px, field of view ${state.fov} degrees, cells of ${state.size} px.`;
+  const { range, fov, size } = toldTexts(p);
+  const parts = [range && `range ${range} px`, fov && `field of view ${fov} degrees`, size && `cells of ${size} px`];
+  const sensor = parts.filter(Boolean).join(", ");
   const says = which === null ? "" : `; q = ${inHundredths(q)}, p_free(reading) = ${inHundredths(pFree)}`;
-  return [{ words: `The ${cellWords(p)}${says}.`, isBold: true }, { words: sensor }];
+  return [{ words: `The ${cellWords(p)}${says}.`, isBold: true }, { words: sensor && `Sensor: ${sensor}.` }];
 }
+
+const CONTROLS_OF_TEXTS = {
+  range: "range_px",
+  fov: "fov_deg",
+  size: "lens_cell_px",
+  behind: "behind_hit",
+  clear: "clear_no_hit",
+  prior: "p_wall",
+};
+
+const toldTexts = (p) => toldValues(textsOf(p.state), p.header.hidden, CONTROLS_OF_TEXTS);
 
 const keyItems = ({ colours }) => [
   { words: "empty", mark: colours.empty },
@@ -48,7 +60,7 @@ const keyItems = ({ colours }) => [
 
 function lensFacts(p) {
   const link = new URL(window.location.href);
-  return { title: pageTitle(), software: p.header.software, link: link.href, settings: textsOf(p.state) };
+  return { title: pageTitle(), software: p.header.software, link: link.href, settings: toldTexts(p) };
 }
 
 function buildSaving(p) {

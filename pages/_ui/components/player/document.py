@@ -93,12 +93,10 @@ def decode_commit(commit: object, document: PlayerDocument) -> PlayerDocument:
     )
 
 
-def with_place(
-    document: PlayerDocument, texts: Mapping[str, str], held: bool = False
-) -> PlayerDocument:
-    """Return the document at the place in a link; if held, it stays at its step."""
+def with_place(document: PlayerDocument, texts: Mapping[str, str]) -> PlayerDocument:
+    """Return the document at the place in a link."""
     commit = encode_document(document)
-    for name in ("speed",) if held else ("step", "speed"):
+    for name in "step", "speed":
         with contextlib.suppress(ValueError):
             commit |= {name: int(texts[name])} if name in texts else {}
     with contextlib.suppress(ValueError):

@@ -119,13 +119,17 @@ function overlayItems({ texts, colours }, overlay) {
 
 // ---- files -------------------------------------------------------------------------------
 
+const CONTROLS_OF_FACTS = { flaw: "thickness_px", fov_rad: "fov_deg" };
+
 // What a file says of itself. The address may be a step behind while the maps play.
 function factsOf(p) {
   const { columns, overlay, step, pin_px } = p.state;
   const { nReadings, rangePx, fovRad } = p.scene;
   const link = new URL(window.location.href);
   link.searchParams.set("step", step);
-  const settings = { columns, overlay, step, pin_px, n_readings: nReadings, range_px: rangePx, fov_rad: fovRad };
+  const told = (values) => toldValues(values, p.header.hidden, CONTROLS_OF_FACTS);
+  const shared = { overlay, step, pin_px, n_readings: nReadings, range_px: rangePx, fov_rad: fovRad };
+  const settings = { columns: columns.map(told), ...told(shared) };
   return { title: pageTitle(), software: p.header.software, link: link.href, settings };
 }
 

@@ -59,6 +59,13 @@ async function figurePng(figure, ratio, facts) {
   });
 }
 
+// What is hidden on the page is not told by a file of it: values without those whose control
+// is hidden, which has their own name or the one given for it.
+function toldValues(values, hidden, controls) {
+  const isTold = ([name]) => !hidden.includes(controls[name] ?? name);
+  return Object.fromEntries(Object.entries(values).filter(isTold));
+}
+
 const ascii = (text) =>
   text.replace(/[^\0-~]/g, (letter) => `\\u${letter.charCodeAt(0).toString(16).padStart(4, "0")}`);
 
