@@ -91,7 +91,8 @@ with shell.page(PATH) as here:
         state.player_document(key),
         key=key,
         held=state.parts_held(key),
-        fixed=settings.page_choices,
+        fixed=settings.page_choices
+        | {"drawing_errors": controls.errors_words(settings)},
         limits=state.limits_of(limits.OF_ONE_MAP),
     )
     _words()

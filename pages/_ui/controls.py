@@ -11,7 +11,7 @@ import streamlit as st
 from occsim.building import Building
 from pages._ui import compute, state, words
 from pages._ui import presets as named
-from pages._ui.choices import CHOICES, Preset
+from pages._ui.choices import CHOICES, Flaw, Preset
 from pages._ui.settings import TABLE, Settings
 
 NARROW_PX = 165
@@ -209,6 +209,19 @@ ERRORS = (
     "missing_share",
     "false_share",
 )
+
+
+def errors_words(settings: Settings) -> str:
+    """What a single map's drawing gets wrong, as its figure says it."""
+    wrong = [name for name in ERRORS if getattr(settings, name) != NO_ERRORS[name]]
+    texts = (f"{TABLE[one].label.lower()} {_with_unit(settings, one)}" for one in wrong)
+    return ", ".join(texts) or CHOICES[Flaw.FOUND]
+
+
+def _with_unit(settings: Settings, name: str) -> str:
+    return f"{getattr(settings, name):g} {TABLE[name].unit}".strip()
+
+
 NO_ERRORS = {name: getattr(Settings(), name) for name in (*ERRORS, "prior_drawing")}
 
 

@@ -101,6 +101,26 @@ def test_a_figure_as_svg_has_its_words_its_settings_and_a_link(page, app_url):
     assert len(list(root.iter(f"{SVG}image"))) == 2
 
 
+def test_a_figure_says_what_the_drawing_gets_wrong(page, app_url):
+    open_player(page, app_url, f"&step={STEP}&thickness_px=2&drawing_scale=1.05")
+    data, _ = saved(page, "SVG")
+    root = ElementTree.fromstring(data)
+    words = " ".join(text.text for text in root.iter(f"{SVG}text"))
+    assert "wall thickness 2 px, scale 1.05" in words
+    assert "as found" not in words
+    [own] = json.loads(root.find(f"{SVG}metadata").text)["settings"]["columns"]
+    assert own["drawing_errors"] == "wall thickness 2 px, scale 1.05"
+    assert "flaw" not in own
+
+
+def test_a_figure_does_not_tell_what_an_exercise_hides(page, app_url):
+    page.goto(f"{app_url}/Build_a_map?exercise=which_rule&step={STEP}")
+    page.wait_for_selector(f"{ROOT}[data-ready='1']")
+    data, _ = saved(page, "SVG")
+    assert "prior_once" not in data.decode()
+    assert "counted once" not in data.decode()
+
+
 def test_the_link_in_a_figure_opens_what_the_figure_shows(page, app_url):
     player = open_player(page, app_url, f"&step={STEP}&overlay=errors")
     player.locator("[data-do=forward]").click()

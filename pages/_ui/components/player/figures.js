@@ -74,6 +74,7 @@ function fullLabel(words, setting, word) {
   if (word === "pair" && !setting.uninformative && !setting.calibrated) {
     return `p_wall ${setting.p_wall}, p_space ${setting.p_space}`;
   }
+  if (word === "flaw" && setting.drawing_errors && !setting.uninformative) return setting.drawing_errors;
   return word === "rule" && setting.rule === "prior_once" ? `counted ${label}` : label;
 }
 
@@ -119,7 +120,7 @@ function overlayItems({ texts, colours }, overlay) {
 
 // ---- files -------------------------------------------------------------------------------
 
-const CONTROLS_OF_FACTS = { flaw: "thickness_px", fov_rad: "fov_deg" };
+const CONTROLS_OF_FACTS = { flaw: "thickness_px", drawing_errors: "thickness_px", fov_rad: "fov_deg" };
 
 // What a file says of itself. The address may be a step behind while the maps play.
 function factsOf(p) {
@@ -129,7 +130,8 @@ function factsOf(p) {
   link.searchParams.set("step", step);
   const told = (values) => toldValues(values, p.header.hidden, CONTROLS_OF_FACTS);
   const shared = { overlay, step, pin_px, n_readings: nReadings, range_px: rangePx, fov_rad: fovRad };
-  const settings = { columns: columns.map(told), ...told(shared) };
+  const own = columns.map(({ flaw, ...one }) => told(one.drawing_errors ? one : { ...one, flaw }));
+  const settings = { columns: own, ...told(shared) };
   return { title: pageTitle(), software: p.header.software, link: link.href, settings };
 }
 
