@@ -9,6 +9,7 @@ from occsim import RobotFileError
 from occsim.io.log_run import open_log
 from pages._ui.robot_data import scans
 from pages._ui.words import ordinal
+from tests.test_carmen import flaser
 from tests.test_pages import control, file_in, launch, said, upload
 from tests.test_timed import CSV, TUM
 
@@ -90,6 +91,20 @@ def test_timed_scans_are_placed_by_their_trajectory():
     app = upload(app, LABEL, "scans.csv", CSV, "text/csv")
     assert not app.error
     assert caption(app).startswith("scans.csv: 1 scans of 3 beams")
+
+
+def test_scans_without_a_pose_at_their_time_are_counted():
+    app = upload(launch(PAGE), "Trajectory (TUM), before timed scans", "p.txt", TUM)
+    late = CSV.partition(b"\n")[0] + b"\n11,3,4,5\n99,3,4,5\n"
+    assert "Left out: 1 more" in caption(upload(app, LABEL, "scans.csv", late))
+
+
+def test_a_log_in_millimetres_is_not_mapped_without_a_word():
+    """All ranges lie beyond the reach, so nothing returns, and the map stays grey."""
+    content = flaser([1500, 2000, 1500]).encode()
+    app = upload(launch(PAGE), LABEL, "own.log", content, "text/plain")
+    assert "No beam met anything" in caption(app)
+    assert "in metres?" in caption(app)
 
 
 def test_a_bag_is_mapped_where_rosbags_is_installed(tmp_path):

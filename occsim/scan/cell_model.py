@@ -10,6 +10,7 @@ from occsim._types import BoolArray, FloatArray, IntArray, ShortRepr
 from occsim.errors import ParameterError, expect, real_number
 from occsim.grid import Grid
 from occsim.mapping import OccupancyMap
+from occsim.rays.outline import run_ends
 from occsim.rays.ragged import ragged_ranges
 from occsim.scan.log import ScanLog
 from occsim.sensor import EDGE_EPS, LOG_ODDS_MAX, Sensor
@@ -148,9 +149,9 @@ def hits_visits(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> HitsVisits:
     expect("sensor", sensor, Sensor)
     expect("grid", grid, Grid)
     hits, visits = (np.zeros(grid.n_cells, dtype=np.int64) for _ in range(2))
-    for _, start, ends, is_hit in _beams(scan_log, sensor, grid):
-        visits += _counted(_passed(start, ends)[1], grid)
-        hits += _counted(ends[:, is_hit], grid)
+    for (_, passed), (_, hit) in _visits(scan_log, sensor, grid):
+        visits += np.bincount(passed, minlength=grid.n_cells)
+        hits += np.bincount(hit, minlength=grid.n_cells)
     visits += hits
     return HitsVisits(grid, hits.reshape(grid.shape), visits.reshape(grid.shape))
 
@@ -200,20 +201,38 @@ def beam_counts(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> BeamCounts:
     expect("grid", grid, Grid)
     n_cells = grid.n_cells
     parts = [np.zeros((3, 0), dtype=np.int64)]
-    for scan, start, ends, is_hit in _beams(scan_log, sensor, grid):
-        beam, passed = _passed(start, ends)
-        passes = _sorted_counts(scan[beam] * n_cells, passed, grid)
-        ends_in = _sorted_counts(scan[is_hit] * n_cells, ends[:, is_hit], grid)
-        both = np.union1d(passes[0], ends_in[0])
-        hits, visits = (np.zeros(both.size, dtype=np.int64) for _ in range(2))
-        hits[both.searchsorted(ends_in[0])] = ends_in[1]
-        visits[both.searchsorted(passes[0])] = passes[1]
-        visits += hits
-        parts.append(np.stack([both, hits, visits]))
+    for batch in _visits(scan_log, sensor, grid):
+        passed, hit = (scan * n_cells + cell for scan, cell in batch)
+        # The last bit says which visits are hits.
+        visits = np.concatenate([2 * passed, 2 * hit + 1])
+        if visits.size:
+            visits.sort()
+            key = visits >> 1
+            first, last = run_ends(key[1:] != key[:-1])
+            hits = np.add.reduceat(visits & 1, first)
+            parts.append(np.stack([key[first], hits, last - first + 1]))
     key, hits, visits = np.concatenate(parts, axis=1)
     bounds = np.arange(scan_log.n_scans + 1) * n_cells
     cell = (key % n_cells).astype(np.int32)
     return BeamCounts(grid, key.searchsorted(bounds), cell, hits, visits)
+
+
+_Visits = tuple[IntArray, IntArray]
+"""The scan and the flat cell of each visit of a beam to a cell of the grid, (V,)."""
+
+
+def _visits(
+    scan_log: ScanLog, sensor: Sensor, grid: Grid
+) -> Iterator[tuple[_Visits, _Visits]]:
+    """Yield, by batches, where beams pass, and where they end in a hit."""
+    for scan, start, ends, is_hit in _beams(scan_log, sensor, grid):
+        beam, passed = _passed(start, ends)
+        inside = _inside(passed, grid)
+        hit, hit_inside = ends[:, is_hit], _inside(ends[:, is_hit], grid)
+        yield (
+            (scan[beam[inside]], _flat(passed[:, inside], grid)),
+            (scan[is_hit][hit_inside], _flat(hit[:, hit_inside], grid)),
+        )
 
 
 def _beams(
@@ -246,28 +265,16 @@ def _cells(points_px: FloatArray, grid: Grid) -> IntArray:
     return np.clip(cells, -FAR_CELLS, FAR_CELLS).astype(np.int64)
 
 
-def _counted(cells: IntArray, grid: Grid) -> IntArray:
-    """Return how often each cell of the grid stands among rows and columns (2, T)."""
-    return np.bincount(_inside(cells, grid)[1], minlength=grid.n_cells)
-
-
-def _inside(cells: IntArray, grid: Grid) -> tuple[BoolArray, IntArray]:
-    """Return which of rows and columns (2, T) lie in the grid, and their flat cells."""
+def _inside(cells: IntArray, grid: Grid) -> BoolArray:
+    """Return which of rows and columns (2, T) lie in the grid."""
     row, col = cells
     inside = (row >= 0) & (col >= 0) & (row < grid.n_rows) & (col < grid.n_cols)
-    return inside, row[inside] * grid.n_cols + col[inside]
+    return np.asarray(inside)
 
 
-def _sorted_counts(
-    base: IntArray, cells: IntArray, grid: Grid
-) -> tuple[IntArray, IntArray]:
-    """Return the keys, base and flat cell, of rows and columns, and how often each is.
-
-    Keys ascend; what lies outside the grid does not count.
-    """
-    inside, flat = _inside(cells, grid)
-    keys, counts = np.unique(base[inside] + flat, return_counts=True)
-    return keys, counts
+def _flat(cells: IntArray, grid: Grid) -> IntArray:
+    row, col = cells
+    return np.asarray(row * grid.n_cols + col)
 
 
 def _passed(start: IntArray, end: IntArray) -> tuple[IntArray, IntArray]:

@@ -119,7 +119,8 @@ def _one_of(
         and not name.rpartition("/")[2].startswith(".")
     ]
     if len(found) != 1:
+        several = f"{len(found)} such files among {len(names)}"
         raise RobotFileError(
-            f"a ROS map needs {what}; got {len(found)} such files among {len(names)}"
+            f"a ROS map needs {what}; got {several if found else 'none'}"
         )
     return found[0]

@@ -1,5 +1,6 @@
 """A log of scans, uploaded or simulated, and the map that it gives."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -7,7 +8,7 @@ import streamlit as st
 
 from occsim import OccsimError, RobotFileError
 from occsim.io import bags
-from occsim.io.timed import is_timed_scans
+from occsim.io.timed import TimedScans, is_timed_scans
 from pages._ui import controls, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel
 from pages._ui.columns import LOG_COLUMNS, Column
@@ -145,13 +146,25 @@ def facts(log: LogFile, made: PlayedLog) -> str:
         f"{grid.width_px * scale:.1f} m × {grid.height_px * scale:.1f} m in cells of "
         f"{100 * scale:.0f} cm."
     )
-    if made.every == 1:
-        return said
-    return (
-        f"{said} Of the scans, every {words.ordinal(made.every)} was used: all of them "
-        "would be more than can be played. Larger cells or a shorter usable range "
-        "leave room for more."
-    )
+    return " ".join([said, *_left_out(made)])
+
+
+def _left_out(made: PlayedLog) -> Iterator[str]:
+    """Sentences on what the map does not show."""
+    found = made.scans
+    if isinstance(found, TimedScans | bags.BagLog) and found.n_left_out:
+        yield (
+            f"Left out: {found.n_left_out:,} more, without a pose at their time or "
+            "with other beams."
+        )
+    if made.every > 1:
+        yield (
+            f"Of the scans, every {words.ordinal(made.every)} was used: all of them "
+            "would be more than can be played. Larger cells or a shorter usable range "
+            "leave room for more."
+        )
+    if not found.scan_log.is_hit.any():
+        yield "No beam met anything within its reach: are the ranges in metres?"
 
 
 def _words() -> None:

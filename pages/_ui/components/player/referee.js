@@ -76,7 +76,9 @@ function showReferee(p) {
   const pair = pairOfMaps(p);
   const unit = p.comparison.isByCell ? "cells" : "pixels";
   setText(units[0], ` looked-at ${unit}`);
-  setText(units[1], ` ${unit} not looked at`);
+  // Of the same readings no other cell was looked at; of others, one map may have looked.
+  const areAlike = p.comparison.pair[0].log === p.comparison.pair[1].log;
+  setText(units[1], areAlike ? ` ${unit} not looked at` : ` other ${unit}`);
   for (const pairNames of names) pair.forEach((i, at) => setText(pairNames[at], LETTERS[i]));
   for (const where of ["looked", "unseen"]) {
     const { differ, right } = countsOf(p.comparison, where === "looked");
