@@ -1,4 +1,4 @@
-"""The section that lays a drawing on a log's map: what it does and what it says."""
+"""The section that registers a drawing on a log: what it does and what it says."""
 
 import functools
 
@@ -20,7 +20,7 @@ from pages._ui import logs
 from pages._ui.columns import DRAWN_COLUMNS
 from pages._ui.components.board import BoardPoint
 from pages._ui.compute import with_walls
-from pages._ui.robot_data import laid, registering
+from pages._ui.robot_data import registered, registering
 from pages._ui.robot_data.played import play_log, simulated_log
 from pages._ui.settings import Settings
 from tests.boards import committed_tiles
@@ -33,7 +33,7 @@ def opened(name):
     """A sample, its simulated log on its map, and how the section opens."""
     building = with_walls(load_sample(name))
     made = play_log(simulated_log(building), logs.options(Settings()))
-    return building, made, laid.opening("here", building, made)
+    return building, made, registered.opening("here", building, made)
 
 
 def corners_off_m(registration, building, made):
@@ -53,17 +53,18 @@ def test_what_the_section_says_of_refining(name):
     """From 1.1 m to 10 cm at all corners; held-out scans are predicted better: than
     with the drawing as it opens, and than without one."""
     building, made, opening = opened(name)
-    refined = laid.refined(building.wall_mask, opening.now, made)
+    refined = registered.refined(building.wall_mask, opening.now, made)
     assert corners_off_m(opening.now, building, made) == pytest.approx(1.1, abs=0.05)
     assert corners_off_m(refined, building, made) < 0.10
     before, after = (
-        laid.agrees(building.wall_mask, one, made) for one in (opening.now, refined)
+        registered.agrees(building.wall_mask, one, made)
+        for one in (opening.now, refined)
     )
     assert after.share_found > 0.7 > 0.2 > before.share_found
     assert after.bits > 0 > before.bits
 
     def bits(registration, prior):
-        walls = laid.laid(building.wall_mask, registration, made)
+        walls = registered.walls_on_map(building.wall_mask, registration, made)
         prior_map = prior_from_cells(walls.mask, made.grid, prior)
         return held_out_bits(made.evidence, prior_map).bits
 
@@ -82,13 +83,13 @@ def test_the_points_at_which_it_opens_lie_on_both_pictures():
         assert all(0 <= p.x_px <= shape[1] and 0 <= p.y_px <= shape[0] for p in points)
 
 
-def test_where_a_drawing_lies_is_said_in_the_words_of_the_page():
+def test_a_registration_is_said_in_the_words_of_the_page():
     """By hand: map of 5 cm a px; 0.4 px of it a px of the drawing are 20 mm."""
     _, made, _ = opened("b")
     lies = Registration(scale=0.4, rotation_rad=-np.pi / 6, shift_x_px=20, shift_y_px=4)
     assert registering.where(lies, made) == (
         "A pixel of the drawing is 20.0 mm; turned 30.0° anticlockwise; its upper left "
-        "corner lies at x = 1.00 m, y = 0.20 m from the map's, y down."
+        "corner is at x = 1.00 m, y = 0.20 m from the map's, y down."
     )
 
 
@@ -135,7 +136,7 @@ def points_commit(app, key, points):
     return {"committed": {"rev": document.rev, "token": document.token, "points": rows}}
 
 
-def test_two_points_on_each_board_lay_a_drawing_on_an_uploaded_log():
+def test_two_points_on_each_board_register_a_drawing_on_an_uploaded_log():
     app = section(upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain"))
     assert button(app, "Refine").disabled
     for key, points in (
@@ -145,11 +146,11 @@ def test_two_points_on_each_board_lay_a_drawing_on_an_uploaded_log():
         # Taken after the script; in a browser, by a callback before it.
         app.session_state[key] = points_commit(app, key, points)
         app = run(run(app))
-    laying = app.session_state["views"][registering.LAYING]
-    assert laying.map_points[1] == BoardPoint(x_px=10.0, y_px=30.0)
+    so_far = app.session_state["views"][registering.REGISTRATIONS]
+    assert so_far.map_points[1] == BoardPoint(x_px=10.0, y_px=30.0)
     # By hand: 100 px to the right become 20 px down.
-    assert laying.now.scale == pytest.approx(0.2)
-    assert laying.now.rotation_rad == pytest.approx(np.pi / 2)
+    assert so_far.now.scale == pytest.approx(0.2)
+    assert so_far.now.rotation_rad == pytest.approx(np.pi / 2)
     assert not button(app, "Refine").disabled
     app = step(app, "Map with it")
     assert any("on scans held out" in text for text in said(app.markdown))
@@ -170,8 +171,8 @@ def test_two_points_at_one_place_are_refused_in_a_sentence():
 def test_without_a_drawing_the_map_asks_for_one_and_a_traced_one_serves():
     app = section(upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain"))
     app = step(app, "Map with it")
-    assert "Lay a drawing on the map first, or trace one." in said(app.info)
-    app = step(app, "Or trace it")
+    assert "Register a drawing on the map first, or trace walls." in said(app.info)
+    app = step(app, "Or trace walls")
     imposed = app.session_state["boards"][registering.TRACE_KEY].imposed
     mask = np.zeros(imposed.shape, bool)
     mask[5:8, 4:40] = True

@@ -1,4 +1,4 @@
-"""A drawing laid on the map of a robot: by points, then by what the robot saw."""
+"""Registration of a drawing on a robot's map: by points, then by what the robot saw."""
 
 from occsim.registration.agreement import Agreement, agreement
 from occsim.registration.refine import refine_registration

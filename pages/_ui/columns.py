@@ -73,7 +73,7 @@ HOME_COLUMNS = (
 LOG_COLUMNS = (Column(uninformative=True, behind_hit=BehindHit.UNSEEN, cell_px=1),)
 """A robot's log is mapped without a drawing, in cells of one pixel of its own map."""
 DRAWN_COLUMNS = (*LOG_COLUMNS, Column(behind_hit=BehindHit.UNSEEN, cell_px=1))
-"""The same, beside a map with the drawing that was laid on it."""
+"""The same, and a map with the drawing that was registered on it."""
 _LETTERS = dict(
     zip("dfwscurbzm", [one.name for one in fields(Column)], strict=True),
 )

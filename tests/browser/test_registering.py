@@ -1,4 +1,4 @@
-"""A drawing laid on a robot's map in a real browser, by mouse and by touch."""
+"""A drawing registered on a robot's map in a real browser, by mouse and by touch."""
 
 import re
 
@@ -49,7 +49,7 @@ class Section:
         expect(self.agreement().first).not_to_have_text(text, timeout=30_000)
 
 
-def test_a_rough_laying_is_refined_undone_and_mapped_with(page, app_url):
+def test_a_rough_registration_is_refined_undone_and_mapped_with(page, app_url):
     section = Section(page, app_url)
     rough = section.percent()
     page.get_by_role("button", name="Refine by what the robot saw").click()
@@ -67,7 +67,7 @@ def test_a_rough_laying_is_refined_undone_and_mapped_with(page, app_url):
 
 
 @pytest.mark.parametrize("by_touch", [False, True], ids=["mouse", "touch"])
-def test_two_points_set_on_the_map_lay_the_drawing_anew(chromium, app_url, by_touch):
+def test_two_points_on_the_map_register_the_drawing_again(chromium, app_url, by_touch):
     size = {"width": 390, "height": 844} if by_touch else {"width": 1280, "height": 720}
     context = chromium.new_context(viewport=size, has_touch=by_touch)
     section = Section(context.new_page(), app_url)

@@ -1,4 +1,4 @@
-"""A drawing for a log: laid on the map by two pairs of points, or traced on it."""
+"""A drawing for a log: registered by two pairs of points, or traced on the map."""
 
 import math
 from collections.abc import Callable
@@ -14,22 +14,22 @@ from pages._ui.columns import DRAWN_COLUMNS, Column
 from pages._ui.components.board import BoardDocument, BoardMode
 from pages._ui.components.player import map_player
 from pages._ui.logs import LogFile
-from pages._ui.robot_data import laid
-from pages._ui.robot_data.laid import Laying, Walls
+from pages._ui.robot_data import registered
 from pages._ui.robot_data.played import PlayedLog
+from pages._ui.robot_data.registered import Registrations, Walls
 from pages._ui.robot_data.scans import given_log, mapped
 from pages._ui.your_building import drawn
 from pages._ui.your_building.drawn import Paper
 
-LAYING, TRACING, STEP = "laying", "tracing", "laying_step"
-STEPS = ("Lay it on the map", "Or trace it", "Map with it")
-DRAWING_KEY, MAP_KEY, TRACE_KEY = "board_laid", "board_map", "board_trace"
-WHICH = "laying_which"
-LAID, TRACED = "The drawing as laid", "The walls as traced"
+REGISTRATIONS, TRACING, STEP = "registrations", "tracing", "registration_step"
+STEPS = ("Register a drawing", "Or trace walls", "Map with it")
+DRAWING_KEY, MAP_KEY, TRACE_KEY = "board_drawing", "board_map", "board_trace"
+WHICH = "registration_which"
+REGISTERED, TRACED = "The registered drawing", "The traced walls"
 HEIGHT_PX = 400
 BITS = (
-    "Bits: by how much more probable the readings are with these walls where they lie "
-    "than with none, as a binary logarithm. Below 0 they speak against the walls."
+    "Bits: by how much more probable the readings are with these walls in this "
+    "place than with none, as a binary logarithm. Below 0 they speak against the walls."
 )
 MAX_STEPS = 50
 
@@ -52,19 +52,21 @@ def show() -> None:
             _buttons(log, made)
     if state.message():
         shell.say_error(state.message())
-    (_lay, _trace, _map)[STEPS.index(step)](log, made)
+    (_register, _trace, _map)[STEPS.index(step)](log, made)
 
 
 def _buttons(log: LogFile, made: PlayedLog) -> None:
-    laying = _laying(log, made)
+    so_far = _registrations(log, made)
     st.button(
         "Refine by what the robot saw",
         on_click=state.edit,
         args=(partial(_refine, made),),
-        disabled=laying.now is None,
+        disabled=so_far.now is None,
         type="primary",
     )
-    st.button("Undo", on_click=_undo, disabled=len(laying.steps) < 2, key="undo_laying")
+    st.button(
+        "Undo", on_click=_undo, disabled=len(so_far.steps) < 2, key="undo_registration"
+    )
     _choose_drawing(log)
 
 
@@ -73,34 +75,34 @@ def _key(log: LogFile) -> str:
     return f"{log.digest} {logs.options(state.settings())}"
 
 
-def _laying(log: LogFile, made: PlayedLog) -> Laying:
+def _registrations(log: LogFile, made: PlayedLog) -> Registrations:
     building = state.building()
     about = f"{_key(log)} {building.drawing.digest}"
-    kept: Laying | None = state.view(LAYING, None)
+    kept: Registrations | None = state.view(REGISTRATIONS, None)
     if kept is not None and kept.about == about:
         return kept
-    kept = Laying(about)
+    kept = Registrations(about)
     if log.is_simulated:
-        kept = laid.opening(about, building, made)
-    state.set_view(LAYING, kept)
+        kept = registered.opening(about, building, made)
+    state.set_view(REGISTRATIONS, kept)
     return kept
 
 
-def _lay(log: LogFile, made: PlayedLog) -> None:
-    laying = _laying(log, made)
-    _numbers(laying, made)
+def _register(log: LogFile, made: PlayedLog) -> None:
+    so_far = _registrations(log, made)
+    _numbers(so_far, made)
     on_drawing, on_map = st.columns(2)
     with on_drawing:
         st.markdown("**1. Two places on the drawing**")
         paper = replace(drawn.drawing_paper(), height_px=HEIGHT_PX)
-        _board(DRAWING_KEY, "drawing_points", laying, drawn.document, paper)
+        _board(DRAWING_KEY, "drawing_points", so_far, drawn.document, paper)
     with on_map:
         st.markdown("**2. The same places on the map**, in the same order")
         _board(
             MAP_KEY,
             "map_points",
-            laying,
-            partial(_map_document, made, laying),
+            so_far,
+            partial(_map_document, made, so_far),
             _map_paper(log, made),
         )
     _words(is_simulated=log.is_simulated)
@@ -109,38 +111,42 @@ def _lay(log: LogFile, made: PlayedLog) -> None:
 def _board(
     key: str,
     field: str,
-    laying: Laying,
+    so_far: Registrations,
     make: Callable[..., BoardDocument],
     paper: Paper,
 ) -> None:
-    """Show a board with two points of the laying."""
+    """Show a board with two points."""
 
     def source() -> tuple[object, ...]:
         # As it was drawn: a new registration is shown by a new document.
-        return (laying.about, laying.now if key == MAP_KEY else None)
+        return (so_far.about, so_far.now if key == MAP_KEY else None)
 
     def take(new: BoardDocument) -> None:
-        now: Laying = state.view(LAYING, laying)
+        now: Registrations = state.view(REGISTRATIONS, so_far)
         now = replace(now, **{field: new.points})
         if len(now.drawing_points) == len(now.map_points) == 2:
-            found = laid.by_points(now.drawing_points, now.map_points)
+            found = registered.by_points(now.drawing_points, now.map_points)
             now = replace(now, steps=(*now.steps, found)[-MAX_STEPS:])
-        state.set_view(LAYING, now)
+        state.set_view(REGISTRATIONS, now)
 
     drawn.board(
         key,
         BoardMode.MEASURE,
         source,
-        lambda: make(points=getattr(laying, field)),
+        lambda: make(points=getattr(so_far, field)),
         take,
         paper=paper,
     )
 
 
-def _map_document(made: PlayedLog, laying: Laying, **contents: object) -> BoardDocument:
+def _map_document(
+    made: PlayedLog, so_far: Registrations, **contents: object
+) -> BoardDocument:
     base = b""
-    if laying.now is not None:
-        base = laid.laid(state.building().wall_mask, laying.now, made).packed
+    if so_far.now is not None:
+        base = registered.walls_on_map(
+            state.building().wall_mask, so_far.now, made
+        ).packed
     grid = made.grid
     return BoardDocument(
         height_px=grid.height_px, width_px=grid.width_px, base=base, **contents
@@ -152,15 +158,15 @@ def _map_paper(log: LogFile, made: PlayedLog, height_px: int = HEIGHT_PX) -> Pap
     return Paper(logs.picture(log, state.settings()), scale, height_px)
 
 
-def _numbers(laying: Laying, made: PlayedLog) -> None:
-    """Say where the drawing lies and how well."""
-    now = laying.now
+def _numbers(so_far: Registrations, made: PlayedLog) -> None:
+    """Say how the drawing is registered and how well it agrees."""
+    now = so_far.now
     if now is None:
-        st.caption("Two points on each picture lay the drawing on the map.")
+        st.caption("Two points on each picture register the drawing on the map.")
         return
     walls = state.building().wall_mask
-    steps = laying.steps[-2:]
-    agreed = [laid.agrees(walls, step, made) for step in steps]
+    steps = so_far.steps[-2:]
+    agreed = [registered.agrees(walls, step, made) for step in steps]
     shown = [
         f"{words.percent(one.share_found)} of the drawn walls that the robot looked at "
         f"are walls in its map, {one.bits:+,.0f} bits"
@@ -172,7 +178,7 @@ def _numbers(laying: Laying, made: PlayedLog) -> None:
 
 
 def where(registration: Registration, made: PlayedLog) -> str:
-    """Where a drawing lies, in words."""
+    """A registration in words."""
     scale = made.scans.frame.metres_per_px
     turn = math.degrees(registration.rotation_rad)
     side = "clockwise" if turn >= 0 else "anticlockwise"
@@ -181,24 +187,24 @@ def where(registration: Registration, made: PlayedLog) -> str:
     )
     return (
         f"A pixel of the drawing is {1000 * scale * registration.scale:.1f} mm; turned "
-        f"{abs(turn):.1f}° {side}; its upper left corner lies at x = {x:.2f} m, y = "
+        f"{abs(turn):.1f}° {side}; its upper left corner is at x = {x:.2f} m, y = "
         f"{y:.2f} m from the map's, y down."
     )
 
 
 def _refine(made: PlayedLog) -> None:
-    laying: Laying | None = state.view(LAYING, None)
-    if laying is None or laying.now is None:
+    so_far: Registrations | None = state.view(REGISTRATIONS, None)
+    if so_far is None or so_far.now is None:
         return
-    found = laid.refined(state.building().wall_mask, laying.now, made)
-    steps = (*laying.steps, found)[-MAX_STEPS:]
-    state.set_view(LAYING, replace(laying, steps=steps))
+    found = registered.refined(state.building().wall_mask, so_far.now, made)
+    steps = (*so_far.steps, found)[-MAX_STEPS:]
+    state.set_view(REGISTRATIONS, replace(so_far, steps=steps))
 
 
 def _undo() -> None:
-    laying: Laying | None = state.view(LAYING, None)
-    if laying is not None and len(laying.steps) > 1:
-        state.set_view(LAYING, replace(laying, steps=laying.steps[:-1]))
+    so_far: Registrations | None = state.view(REGISTRATIONS, None)
+    if so_far is not None and len(so_far.steps) > 1:
+        state.set_view(REGISTRATIONS, replace(so_far, steps=so_far.steps[:-1]))
 
 
 def _choose_drawing(log: LogFile) -> None:
@@ -206,7 +212,7 @@ def _choose_drawing(log: LogFile) -> None:
         if log.is_simulated:
             st.caption("A simulated log is driven through the drawing that is chosen.")
         controls.drawing_choice()
-        uploads.drawing("laid_drawing")
+        uploads.drawing("registered_drawing")
         st.caption("Its walls can be corrected on the page Your building.")
 
 
@@ -242,13 +248,13 @@ def _trace(log: LogFile, made: PlayedLog) -> None:
 
 
 def _walls(log: LogFile, made: PlayedLog) -> Walls | None:
-    """The walls that are mapped with: laid, or traced."""
-    laying = _laying(log, made)
+    """The walls of the prior: registered, or traced."""
+    so_far = _registrations(log, made)
     tracing: tuple[str, Corrections] | None = state.view(TRACING, None)
     has_traced = (
         tracing is not None and tracing[0] == _key(log) and not tracing[1].is_empty
     )
-    options = [LAID] * (laying.now is not None) + [TRACED] * has_traced
+    options = [REGISTERED] * (so_far.now is not None) + [TRACED] * has_traced
     if not options:
         return None
     which = options[0]
@@ -261,16 +267,16 @@ def _walls(log: LogFile, made: PlayedLog) -> Walls | None:
             **state.bind_view(WHICH, options[0]),
         )
     if which == TRACED and tracing is not None:
-        nothing = laid.traced(b"", made)
+        nothing = registered.traced(b"", made)
         return Walls(tracing[1].apply(nothing.mask))
-    return laid.laid(state.building().wall_mask, laying.now, made)
+    return registered.walls_on_map(state.building().wall_mask, so_far.now, made)
 
 
 def _map(log: LogFile, made: PlayedLog) -> None:
     """Map the log without and with the drawing."""
     walls = _walls(log, made)
     if walls is None:
-        st.info("Lay a drawing on the map first, or trace one.")
+        st.info("Register a drawing on the map first, or trace walls.")
         return
     key, settings = state.ROBOT_KEY, state.settings()
     state.open_log_player(_key(log), len(made.trajectory) // 2, DRAWN_COLUMNS)
@@ -281,7 +287,7 @@ def _map(log: LogFile, made: PlayedLog) -> None:
         replace(
             plain,
             base=f"{plain.base} {walls.digest}",
-            parts=(*parts, *laid.parts(walls, columns)),
+            parts=(*parts, *registered.parts(walls, columns)),
             drawings=(PriorDrawing.OWN,),
             has_prior=True,
         ),
@@ -298,7 +304,7 @@ def _bits(
 ) -> None:
     rows = ["| Map | Bits per cell, on scans held out |", "|---|---|"]
     for letter, column in zip("ABC", columns, strict=False):
-        bits = laid.held_out(log_key, made, walls, column)
+        bits = registered.held_out(log_key, made, walls, column)
         shown = "–" if math.isnan(bits) else f"{bits:.3f}"
         rows.append(f"| **{letter}** {_said(column)} | {shown} |")
     table, about = st.columns([2, 3])
@@ -306,9 +312,9 @@ def _bits(
         st.markdown("\n".join(rows))
     with about:
         st.caption(
-            "There is no ground truth, so the log judges itself: its scans are cut "
-            f"into {laid.N_FOLDS} blocks; each is predicted by the map from the other "
-            "blocks. A cell counts where the held-out scans speak clearly. 0 is "
+            "There is no ground truth, so scans are held out: the log is divided "
+            f"into {registered.N_FOLDS} blocks; each is predicted by the map from the "
+            "other blocks. A cell counts where the held-out scans speak clearly. 0 is "
             "certainty that proved right; a cell of which nothing is known costs 1 "
             "bit. An error that all scans share is not seen."
         )
@@ -328,13 +334,13 @@ def _words(*, is_simulated: bool) -> None:
         see, predict, why = st.columns(3, gap="large")
     with see:
         st.markdown(
-            "**See.** The drawing's walls lie tinted over the map of the robot. Two "
+            "**See.** The drawing's walls are shown over the robot's map. Two "
             "pairs of points give the scale, the turn and the shift."
         )
     with predict:
         missed = "Set the points half a metre off, on purpose."
         if is_simulated:
-            missed = "The points were set by a hand that missed by half a metre."
+            missed = "The points are off by half a metre, on purpose."
         st.markdown(
             f"**Predict.** {missed} Will *Refine* find the place? And what if you set "
             "them two metres off?"
@@ -349,7 +355,7 @@ def _words(*, is_simulated: bool) -> None:
             )
     with why:
         st.markdown(
-            "**Why.** First the drawn walls are drawn to the nearest walls of the map, "
+            "**Why.** First the drawn walls are moved to the nearest walls of the map, "
             "from far to near; then what counts is how much more probable the readings "
             "are with these walls than without."
         )

@@ -1,4 +1,4 @@
-"""A drawing laid on the map of a log: where it lies, what it shows, what it is worth.
+"""A drawing registered on the map of a log: its place, its agreement, its worth.
 
 Nothing here imports Streamlit.
 """
@@ -38,11 +38,11 @@ Points = tuple[BoardPoint, ...]
 SPOTS = ((0.2, 0.2), (0.8, 0.8))
 """Places of the drawing, as shares of its width and height, at which it opens."""
 MISSED_M = ((0.5, -0.35), (-0.4, 0.5))
-"""How far a hand missed them on the map, m."""
+"""Errors of the points on the map, on purpose, m."""
 
 
 @dataclass(frozen=True)
-class Laying:
+class Registrations:
     """The points on drawing and map, and all registrations so far, the last in force.
 
     ``about`` says of which drawing and map.
@@ -81,8 +81,8 @@ def by_points(drawing: Points, on_map: Points) -> Registration:
     return register_by_points(_places(drawing), _places(on_map))
 
 
-def opening(about: str, building: Building, made: PlayedLog) -> Laying:
-    """A building's drawing on the map of its own simulated log, roughly."""
+def opening(about: str, building: Building, made: PlayedLog) -> Registrations:
+    """A rough registration of a drawing on the map of its own simulated log."""
     height_px, width_px = building.drawing.shape
     scale = building.metres_per_px or DOOR_WIDTH_M / building.sensor.range_px
     frame = MetricFrame(height_px=height_px, metres_per_px=scale)
@@ -94,7 +94,7 @@ def opening(about: str, building: Building, made: PlayedLog) -> Laying:
         place = [(pose[0] + miss_x, pose[1] + miss_y, 0.0)]
         on_map.append(_on(made, poses_to_image(place, made.scans.frame)))
     pairs = tuple(drawing), tuple(on_map)
-    return Laying(about, *pairs, (by_points(*pairs),))
+    return Registrations(about, *pairs, (by_points(*pairs),))
 
 
 def _on(made: PlayedLog, place: Trajectory) -> BoardPoint:
@@ -109,8 +109,10 @@ def _places(points: Points) -> list[tuple[float, float]]:
     return [(point.x_px, point.y_px) for point in points]
 
 
-def laid(walls: BoolArray, registration: Registration, made: PlayedLog) -> Walls:
-    """A drawing's walls on the map."""
+def walls_on_map(
+    walls: BoolArray, registration: Registration, made: PlayedLog
+) -> Walls:
+    """The walls of a registered drawing, on the map."""
     return Walls(registered_walls(walls, registration, made.grid))
 
 
