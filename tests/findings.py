@@ -1,6 +1,6 @@
 """Print what a drawing is worth on the five samples: ``python -m tests.findings``.
 
-The figures that the lessons and the changelog quote, computed anew.
+The figures that the lessons and the changelog quote, computed again.
 """
 
 from dataclasses import replace

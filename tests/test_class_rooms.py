@@ -75,7 +75,7 @@ def test_only_who_opened_a_room_can_show_it():
     rooms = Rooms()
     code, key = rooms.open("Will it?", OPTIONS)
     for wrong in ("", key[:-1], key + "0", "\ud800"):
-        with pytest.raises(RoomError, match="Only who opened"):
+        with pytest.raises(RoomError, match="Only the person who opened"):
             rooms.show(code, wrong)
     assert rooms.seen(code).counts is None
 

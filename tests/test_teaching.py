@@ -1,6 +1,6 @@
 """The figures of the teacher's guides are those of the library.
 
-``python -m tests.test_teaching`` writes the tables anew.
+``python -m tests.test_teaching`` writes the tables again.
 """
 
 import math

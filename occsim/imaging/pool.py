@@ -193,14 +193,14 @@ class Pool:
         except TimeoutError:
             raise DrawingError(
                 f"{name} takes longer than {MAX_SECONDS} s to decode, more than a "
-                "drawing may; export it anew, as a PNG or a simpler PDF, or try again "
+                "drawing may; export it again, as a PNG or a simpler PDF, or try again "
                 "where the machine was busy"
             ) from None
         except EOFError:
             raise DrawingError(
                 f"{name} breaks its decoder or takes more than "
                 f"{MAX_MEMORY_BYTES / 1e6:.0f} MB of memory to decode, more than a "
-                "drawing may; export it anew, as a PNG or a simpler PDF"
+                "drawing may; export it again, as a PNG or a simpler PDF"
             ) from None
         if "refused" in reply:
             raise DrawingError(reply["refused"])

@@ -233,8 +233,8 @@ def drawing_errors() -> None:
     has_errors = compute.prior_mask(building, settings) is not None
     with st.popover(f"Drawing's errors{': on' if has_errors else ''}"):
         st.caption(
-            "What the drawing gets wrong. It touches the prior only: the building that "
-            "the robot drives through stays as it is."
+            "What the drawing gets wrong. It changes only the prior; the building that "
+            "the robot drives through stays the same."
         )
         left, right = st.columns(2, gap="medium")
         with left:

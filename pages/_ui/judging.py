@@ -1,4 +1,4 @@
-"""The state that an exercise judges, from what a student has set; and judged anew.
+"""The state that an exercise judges, from what a student has set; and judged again.
 
 One function makes it from a session and from a link, so that what was handed in is
 judged as it was on the page.
@@ -89,7 +89,7 @@ def numbers_of(exercise: Exercise, state: ExerciseState) -> dict[str, float]:
     return {name: float(facts.value(name)) for name in names}
 
 
-# --- Judged anew ----------------------------------------------------------------------
+# --- Judged again ---------------------------------------------------------------------
 
 
 def state_of_link(exercise: Exercise, tried: Tried) -> ExerciseState:
@@ -113,7 +113,7 @@ def state_of_link(exercise: Exercise, tried: Tried) -> ExerciseState:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """An attempt, judged anew from its states.
+    """An attempt, judged again from its states.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class Judged:
 
 
 def judged(exercise: Exercise, attempt: Attempt) -> Judged:
-    """Judge an attempt anew; shared by all who ask for the same one."""
+    """Judge an attempt again; shared by all who ask for the same one."""
     # All of the exercise: a teacher's own may differ in its reference alone.
     asked = exercise, attempt.is_solved, sorted(attempt.tried.items())
     return _judged(repr(asked), exercise, attempt)

@@ -101,8 +101,9 @@ def _ask_frame(is_placed: bool) -> None:
     else:
         st.info(
             "The positions of this file are in metres, y up, and it does not say where "
-            "the drawing lies. The trajectory stays as it is until you say it: for a "
-            "robot's map, the map file does (resolution and origin)."
+            "the drawing lies. Enter its place; until then the trajectory is not "
+            "changed. For a robot's map, the map file has these numbers (resolution "
+            "and origin)."
         )
     _ask_scale()
     with st.container(horizontal=True):

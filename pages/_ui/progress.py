@@ -1,7 +1,7 @@
 """What a student has done with the exercises, and the file that holds it.
 
 The browser keeps the same text that a student hands in. Nothing of it is trusted: a
-file may have been edited, so what it claims is judged anew from the states in it.
+file may have been edited, so what it claims is judged again from the states in it.
 """
 
 import json

@@ -31,8 +31,8 @@ def sensor_errors(box: Callable[[str], Any]) -> None:
     with box(f"Sensor's beams and errors{': on' if is_on else ''}"):
         st.caption(
             "By default every pixel in view is read, without error. Here the sensor "
-            "measures along beams, as a robot's does, and errs. The path is drawn "
-            "where the robot is; readings enter the map where it believes to be."
+            "measures along beams, as a robot's does, and has errors. The path shows "
+            "the true poses; readings enter the map at the believed poses."
         )
         left, right = st.columns(2, gap="medium")
         with left:

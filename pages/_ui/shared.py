@@ -100,7 +100,7 @@ class Store:
             self._drop_oldest()
 
     def _drop_oldest(self) -> None:
-        """Measure all results anew and keep the newest, some room beside them.
+        """Measure all results again and keep the newest, some room beside them.
 
         A run grows while pages ask for its surfaces and fronts, and runs of one
         building share its arrays: the sum of their sizes when they were made is an

@@ -104,7 +104,7 @@ def octomap(scans: Scans) -> Callable[[], object] | None:
 
 
 def ray_casting(scans: Scans, n_readings: int) -> Callable[[], object]:
-    """Return what PythonRobotics' lidar_to_grid_map does, written anew.
+    """Return what PythonRobotics' lidar_to_grid_map does, written for this comparison.
 
     One Bresenham line in Python from the robot's cell to that of each hit: cells before
     it are free, the hit and its neighbours right and below are occupied, in a map of

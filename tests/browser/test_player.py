@@ -116,7 +116,7 @@ def test_keys_step_jump_and_play(page, app_url):
         page.keyboard.press(key)
         steps += shown(player, "step")
     assert steps == [0, 1, 11, 10, last]
-    page.keyboard.press("Space")  # from the end, play starts anew
+    page.keyboard.press("Space")  # from the end, play starts again
     wait_until(page, player, "root => root.dataset.step > 3 && root.dataset.step < 200")
     page.keyboard.press("Space")
     assert shown(player, "playing") == [0]

@@ -1,4 +1,4 @@
-"""Collect: the files of a class, judged anew. Nothing of them is kept."""
+"""Collect: the files of a class, judged again. Nothing of them is kept."""
 
 from collections.abc import Sequence
 
@@ -18,8 +18,8 @@ def section() -> None:
     """Draw the section: the files, the table, the predictions, the CSV."""
     st.markdown(
         "Students download *Progress as a file* on the page Exercises and send it to "
-        "you. Drop the files here: every result is judged anew from the state in the "
-        "file, so that an edited one shows. Nothing is kept on this server."
+        "you. Upload the files here. Every result is judged again from the state in "
+        "the file, so an edited result is recognised. Nothing is kept on this server."
     )
     files = st.file_uploader(
         "Progress files",

@@ -1,4 +1,4 @@
-"""What a class handed in, judged anew: a table, the predictions, a file for sheets."""
+"""What a class handed in, judged again: a table, the predictions, a file for sheets."""
 
 import csv
 import io
@@ -57,7 +57,7 @@ def read(data: bytes, file_name: str) -> Progress:
 def student_of(
     progress: Progress, file_name: str, exercises: Sequence[Exercise]
 ) -> Student:
-    """Return a student, every attempt judged anew."""
+    """Return a student, every attempt judged again."""
     found = {
         one.id: judged(one, progress.attempts[one.id])
         for one in exercises

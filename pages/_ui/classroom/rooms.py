@@ -155,7 +155,9 @@ class Rooms:
             Where there is no such room, or the key is another's.
         """
         if not self.is_key(code, key):
-            raise RoomError("Only who opened this room can show its answers.")
+            raise RoomError(
+                "Only the person who opened this room can show its answers."
+            )
         with self._lock:
             self._room(code).is_shown = shown
 

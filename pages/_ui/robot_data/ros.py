@@ -64,8 +64,8 @@ def panel() -> None:
     kept = state.view(KEPT, None)
     if kept is None:
         st.caption(
-            "A map of ROS map_server or nav2. Its occupied pixels are its walls: "
-            "none are looked for."
+            "A map of ROS map_server or nav2. Its occupied pixels are its walls; wall "
+            "detection is not run."
         )
         return
     if kept.has_trap:
@@ -114,22 +114,22 @@ def _uses(name: str, ros_map: RosMap) -> None:
             (
                 "Use as drawing",
                 _as_drawing,
-                "A new building: its walls are drawing and world, its scale is known, "
-                "and a tour of its free space is planned. Unknown pixels are no wall; "
-                "the tour keeps out of them.",
+                "A new building. The occupied pixels become its drawing and its world, "
+                "the scale is known, and a tour of the free space is planned. Unknown "
+                "pixels are not walls, and the tour avoids them.",
             ),
             (
                 "Use as ground truth",
                 _as_truth,
-                "Of the drawing that is open, which must have the same size. What is "
-                "occupied is wall; free and unknown are not.",
+                "The ground truth of the open drawing, which must have the same size. "
+                "Occupied pixels are walls; free and unknown pixels are not.",
             ),
             (
                 "Use as prior",
                 _as_prior,
-                "The walls of the prior, in place of those found in the drawing that "
-                "is open, which must have the same size. Unknown pixels are no wall, "
-                "so their cells start from p_space.",
+                "The walls of the prior, instead of those found in the open drawing, "
+                "which must have the same size. Unknown pixels are not walls, so their "
+                "cells start from p_space.",
             ),
         )
         for label, use, about in uses:
@@ -189,8 +189,8 @@ def _out() -> None:
         _downloads(label, ros_map, name)
     st.caption(
         "*Percentages* keeps every value (mode raw) and is read back as it was. "
-        "*Trinary*, which every program reads, keeps occupied, free and unknown: what "
-        "lies between 20 % and 65 % becomes unknown, which most of a prior does."
+        "*Trinary*, which every program reads, keeps occupied, free and unknown: "
+        "values between 20 % and 65 % become unknown, and so do most cells of a prior."
     )
 
 

@@ -86,13 +86,13 @@ class PriorSettings:
         "shift_x_px",
         label="Shift to the right",
         unit="px",
-        help="The drawing lies this far beside the building.",
+        help="The drawing is shifted this far to the right of the building.",
     )
     shift_y_px: int = flaw(
         "shift_y_px",
         label="Shift down",
         unit="px",
-        help="The drawing lies this far below the building.",
+        help="The drawing is shifted this far down from the building.",
     )
     rotation_deg: float = setting(
         0.0,

@@ -200,7 +200,7 @@ def projector() -> bool:
 
 
 def set_projector(on: bool) -> None:
-    """Show the pages as on a projector, or no longer; sizes are measured anew."""
+    """Show the pages as on a projector, or no longer; sizes are measured again."""
     st.session_state.projector = on
     forget_player()
     forget_lens()

@@ -158,15 +158,15 @@ def open_log_player(identity: str, step: int, columns: tuple[Column, ...]) -> No
 def put_player(key: str, step: int, pin_px: tuple[float, float] | None = None) -> None:
     """Let a player open at a step, nothing predicted."""
     played = st.session_state.played
-    anew = replace(played[key], step=step, pin_px=pin_px, predicted=None)
-    st.session_state.played = played | {key: anew}
+    reset = replace(played[key], step=step, pin_px=pin_px, predicted=None)
+    st.session_state.played = played | {key: reset}
 
 
 def restart_home() -> None:
     """Let the home page's maps play from the start, the question not yet answered."""
     played = st.session_state.played
-    anew = replace(NEW_PLAYED[HOME_KEY], rev=played[HOME_KEY].rev)
-    st.session_state.played = played | {HOME_KEY: anew}
+    reset = replace(NEW_PLAYED[HOME_KEY], rev=played[HOME_KEY].rev)
+    st.session_state.played = played | {HOME_KEY: reset}
     forget_player()
 
 

@@ -107,7 +107,7 @@ function showValues({ lines, values, unit }, step) {
   texts.forEach((text, i) => setText(values.children[i], text));
 }
 
-// After a change of a map, the theme or the size, all lines are drawn anew.
+// After a change of a map, the theme or the size, all lines are drawn again.
 function forgetCurves(p) {
   for (const tile of p.tiles ?? []) Object.assign(tile, { lines: null, picture: null });
 }

@@ -6,7 +6,7 @@ const FIGURE_RATIO = 2; // pixels of a PNG to one px of the figure
 const FIGURE_MARGIN = 16;
 const SMALL = 13;
 
-// A stage of its own, as large as a figure may be and drawn anew for each step.
+// A stage of its own, as large as a figure may be and drawn again for each step.
 function newStill(p, most, ratio) {
   const { widthPx, heightPx } = p.scene;
   const gaps = (p.views.length - 1) * PANE_GAP + 2 * FIGURE_MARGIN;

@@ -33,7 +33,7 @@ function newReferee(p, { hasTruth }) {
 
 const pairOfMaps = ({ pairing }) => (pairing ?? "01").split("").map(Number);
 
-// Compares the chosen pair anew; after a change of either map.
+// Compares the chosen pair again; after a change of either map.
 function recompare(p) {
   if (!isSeveral(p)) return;
   if (pairOfMaps(p)[1] >= p.columns.length) p.pairing = "01";

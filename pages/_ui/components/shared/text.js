@@ -22,7 +22,7 @@ function probability(p) {
   return p.toFixed(Math.min(15, 1 - Math.floor(Math.log10(edge))));
 }
 
-// Replaces a text only where it changed: the page lays itself out anew after it.
+// Replaces a text only where it changed: each change costs a new layout of the page.
 function setText(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }
