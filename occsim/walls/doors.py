@@ -114,15 +114,10 @@ def _mean(values: FloatArray | BoolArray, piece: IntArray) -> FloatArray:
     return np.asarray(np.bincount(piece, values) / np.bincount(piece))
 
 
-def _quantile(
-    values: FloatArray, piece: IntArray, share: float, n: int = 0
-) -> FloatArray:
-    """Return for each stroke the value below which a share of its values lies.
-
-    The last stroke's first value stands for strokes without any.
-    """
+def _quantile(values: FloatArray, piece: IntArray, share: float) -> FloatArray:
+    """Return for each stroke the value below which a share of its values lies."""
     ordered = values[np.lexsort((values, piece))]
-    count = np.bincount(piece, minlength=n)
+    count = np.bincount(piece)
     at = np.cumsum(count) - count + (share * (count - 1)).astype(np.int64)
     return np.asarray(ordered[np.clip(at, 0, max(len(ordered) - 1, 0))])
 

@@ -19,7 +19,6 @@ RANGES = (
     "glass_share",
 )
 POSES = ("position_sigma_m", "heading_sigma_deg", "odometry_drift", "noise_seed")
-FINDER = "range_finder"
 
 
 def sensor_errors(box: Callable[[str], Any]) -> None:

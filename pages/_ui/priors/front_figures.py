@@ -109,9 +109,7 @@ def study_figure(
     return fronts_figure(series(fronts), axes, min_recall, "Exact fronts", "study")
 
 
-def series(
-    fronts: dict[str, ParetoFront], marks: dict[str, tuple[Mark, ...]] | None = None
-) -> list[Drawn]:
+def series(fronts: dict[str, ParetoFront]) -> list[Drawn]:
     """The fronts of several drawings, told apart by colour and dashes."""
     return [
         Drawn(
@@ -120,7 +118,6 @@ def series(
             palette.SERIES[i % len(palette.SERIES)],
             DASHES[i % len(DASHES)],
             size=6,
-            marks=(marks or {}).get(name, ()),
         )
         for i, (name, front) in enumerate(fronts.items())
     ]

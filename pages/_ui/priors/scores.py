@@ -76,7 +76,7 @@ def rows(run: Run, prior: Prior, rule: UpdateRule | None = None) -> list[Row]:
     ]
 
 
-def table(run: Run, prior: Prior, rule: UpdateRule | None = None) -> str:
+def table(run: Run, prior: Prior) -> str:
     """The rows as Markdown: two columns, the blank map's value beside each.
 
     Its terms are HTML, which the page must allow.
@@ -84,7 +84,7 @@ def table(run: Run, prior: Prior, rule: UpdateRule | None = None) -> str:
     blank = term("blank map", "blank")
     heads = " | ".join(f"{term(title)} | {blank}" for title in COLUMNS.values())
     lines = [f"| Score | {heads} |", "|---|" + "---:|" * 2 * len(COLUMNS)]
-    for row in rows(run, prior, rule):
+    for row in rows(run, prior):
         pairs = zip(row.values, row.blank, strict=True)
         cells = " | ".join(f"**{value}** | {blank}" for value, blank in pairs)
         lines.append(f"| {term(row.name)} | {cells} |")
