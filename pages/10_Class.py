@@ -26,7 +26,7 @@ with shell.page(state.CLASS_PATH) as lesson:
         )
         SECTIONS[chosen]()
         st.toggle(
-            "Show the teacher's guide beside each lesson",
+            "Show the teacher's guide to each lesson",
             value=state.is_teacher(),
             key="teacher_guides",
             on_change=state.toggle_teacher,
