@@ -119,8 +119,10 @@ def most_cells_in_view(sensor: Sensor, grid: Grid) -> int:
         The cells that meet a sector of area A and perimeter P lie within a cell's
         diagonal d of it, in an area of at most ``A + P d + pi d^2`` (Steiner).
     """
-    area = 0.5 * sensor.fov_rad * sensor.range_px**2
-    perimeter = (2.0 + sensor.fov_rad) * sensor.range_px
+    # A range beyond the grid sees no more of it, and its square may be no number.
+    range_px = min(sensor.range_px, float(grid.cell_px) * (grid.n_cells + 1))
+    area = 0.5 * sensor.fov_rad * range_px**2
+    perimeter = (2.0 + sensor.fov_rad) * range_px
     diagonal = np.sqrt(2.0) * grid.cell_px
     around = area + perimeter * diagonal + np.pi * diagonal**2
     return min(grid.n_cells, int(around / grid.cell_px**2))

@@ -284,6 +284,23 @@ def test_an_exercise_of_ones_own_takes_the_place_of_ours_with_its_id():
     assert "Mine" in "\n".join(said(student.markdown))
 
 
+@pytest.mark.parametrize(
+    ("setting", "sentence"),
+    [
+        ("fov_deg = 1.0", "the set-up cannot be shown: fov_deg must lie in 5 to 360"),
+        ("range_px = 1e300", "mine.toml: the check does not hold at the witness"),
+    ],
+)
+def test_a_set_up_that_no_page_can_show_is_refused(setting, sentence):
+    app = teacher()
+    bad = OWN.replace("[setup]\n", f"[setup]\n{setting}\n")
+    if "fov" in setting:  # wide enough for the proof: its check is of the step
+        bad = bad.replace("set.step == first_wall_step", "set.step == 2")
+    give(app, ("mine.toml", bad.encode()))
+    [error] = said(app.error)
+    assert sentence in error
+
+
 def test_two_files_with_one_id_are_said_to_be_so():
     app = teacher()
     give(app, ("a.toml", OWN.encode()), ("b.toml", OWN.encode()))

@@ -220,6 +220,11 @@ wrong = { p_wall = 0.4 }
 """
 
 
+ONE_OPTION = '[predict]\nquestion = "?"\noptions = ["a"]\n[[check]]'
+LONG_OPTION = ONE_OPTION.replace('"a"', f'"a", "{500 * "b"}"')
+SAME_NAMES = 2 * '[[question]]\nname = "n"\nquestion = "?"\n' + "[[check]]"
+
+
 def test_the_good_one_loads():
     exercise = load_exercise(GOOD.encode())
     assert judge(exercise, changed(exercise.setup, {"p_wall": 0.7})).is_solved
@@ -247,6 +252,21 @@ def test_the_good_one_loads():
         ('id = "x"', "id = 3", "id must be a text; got 3"),
         ("wrong = { p_wall = 0.4 }", "", "needs a wrong answer"),
         ('title = "X"', "title =", "not a TOML file"),
+        # No link and no progress could hold these.
+        ('id = "x"', 'id = "My wall!"', "id must be 1 to 40 of a to z, 0 to 9 and _"),
+        ("lesson = 1", "lesson = 99", "lesson must be 0 to 9; got 99"),
+        ("[[check]]", ONE_OPTION, "the options of predict must be two or more"),
+        ("[[check]]", LONG_OPTION, "must have 1 to 200 characters; got 500"),
+        ("[[check]]", '[predict]\nquestion = "?"\n[[check]]', "predict needs options"),
+        ("[[check]]", SAME_NAMES, "two questions have the same name"),
+        # These would be passed over, and seen by a student first.
+        ('show = ["p_wall"]', 'shows = ["p_wall"]', "show, lock, hide"),
+        ("{set.p_wall}", "{tpp}", "there is no fact called 'tpp'"),
+        (
+            "p_wall = 0.2",
+            'uninformative = true\np_wall = "x"',
+            "p_wall must be a number",
+        ),
     ],
 )
 def test_a_bad_exercise_is_refused_in_one_sentence(old, new, sentence):

@@ -19,6 +19,7 @@ from occsim.exercises.exercise import (
 )
 from occsim.exercises.facts import GROUPS, Context, Readings, is_fact, simulated
 from occsim.exercises.grammar import Tree, names_of, parse
+from occsim.exercises.sound import require_controls, require_sound
 from occsim.exercises.state import FLAWS, SETTINGS, ExerciseState, changed
 
 MAX_BYTES = 100_000
@@ -148,6 +149,7 @@ def _exercise(given: Mapping[str, Any], name: str, readings: Readings) -> Exerci
         raise ParameterError(f"there is no key called {unknown[0]!r} in an exercise")
     settings = _table(given, "setup")
     controls = _table(given, "controls")
+    require_controls(controls)
     reason = given.get("reason")
     made = Exercise(
         number=_number(name),
@@ -280,6 +282,7 @@ def _require_parts(made: Exercise) -> None:
         raise ParameterError(
             f"an exercise needs {FEWEST_HINTS} hints or more; got {len(made.hints)}"
         )
+    require_sound(made)
     if made.is_open:
         return
     if not made.checks:

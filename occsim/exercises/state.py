@@ -99,7 +99,8 @@ class ExerciseState:
         for name in ("cell", "lens_cell", "lens_pose"):
             object.__setattr__(self, name, _numbers(name, getattr(self, name)))
         whole_number("lens_cell_px", self.lens_cell_px, 1, 32)
-        _ = self.prior, self.sensor(20.0)  # check their own values
+        # They check their own values, those as well that are not in use.
+        _ = Prior(p_wall=self.p_wall, p_space=self.p_space), self.sensor(20.0)
 
     @property
     def prior(self) -> Prior:

@@ -29,7 +29,7 @@ from occsim.io.replay import MAX_ENTRIES
 from occsim.io.ros_map import RosMap, building_from_map
 from occsim.samples import OTHER_DRAWINGS, drawings_of_size
 from occsim.sensor import most_cells_in_view
-from pages._ui import palette
+from pages._ui import openings, palette
 from pages._ui.choices import PriorDrawing
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
@@ -153,7 +153,13 @@ def proven(text: str, name: str) -> Exercise:
         With the name of the file and one sentence, where it is refused.
     """
     # No core is held here: a proof waits for one whenever it simulates.
-    return load_exercise(text.encode(), name=name, readings=of_sample)
+    found = load_exercise(text.encode(), name=name, readings=of_sample)
+    try:
+        openings.texts_of_exercise(found)
+    except (ValueError, TypeError) as error:
+        # A value that its page has no place for on the control.
+        raise ParameterError(f"{name}: the set-up cannot be shown: {error}") from error
+    return found
 
 
 def of_sample(name: str, settings: MapSettings) -> MappingRun:
