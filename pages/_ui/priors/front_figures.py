@@ -182,12 +182,16 @@ def _symbols(drawn: Drawn, min_recall: float) -> list[str]:
 
 
 def mark_trace(mark: Mark, axes: FrontAxes, ends: list[Pair]) -> go.Scatter:
-    """One marked map; beyond the ends of the axes it stands at the border, labelled."""
+    """One marked map; beyond an axis it stands at the border, with its score."""
     true = place(axes, mark.precision, mark.recall)
     x, y = (min(max(at, low), high) for at, (low, high) in zip(true, ends, strict=True))
     beyond = (x, y) != true
-    label = f"{mark.name.split(',')[0]}: {100 * mark.precision:.0f} %, "
-    label += f"{100 * mark.recall:.0f} %"
+    scores = {"recall": mark.recall, "precision": mark.precision}
+    label = ", ".join(
+        f"{name} {100 * score:.0f} %"
+        for (name, score), at, shown in zip(scores.items(), true, (x, y), strict=True)
+        if at != shown
+    )
     is_ring = mark.symbol.endswith("-open")
     line = {"color": mark.color if is_ring else palette.OUTLINE}
     line["width"] = 3 if is_ring else 1

@@ -23,7 +23,7 @@ class ViewSettings:
     """What the pages show, search and hand over."""
 
     overlay: Overlay = setting(
-        Overlay.NONE, label="Overlay", help="What is drawn over the map."
+        Overlay.NONE, label="Show on the map", help="What is drawn over the map."
     )
     columns: tuple[Column, ...] = setting(
         OPENING_COLUMNS,

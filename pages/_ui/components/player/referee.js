@@ -14,8 +14,8 @@ function newReferee(p, { hasTruth }) {
     const more = [names[0].cloneNode(), names[1].cloneNode()];
     const text = element("p", {}, from, button(`${where} 2`), units[where === "looked" ? 0 : 1], to);
     const verb = hasTruth ? " is right " : " declares a wall ";
-    text.append(more[0], verb, button(`${where} 0`), " times, ", more[1], " ");
-    text.append(button(`${where} 1`), ".");
+    const last = element("span", { class: "unbroken" }, more[1], " ", button(`${where} 1`), ".");
+    text.append(more[0], verb, button(`${where} 0`), " times, ", last);
     return { text, more };
   };
   const looked = line("looked", "They judge ", " differently. ");
