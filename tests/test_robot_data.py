@@ -1,5 +1,6 @@
 """The page Robot data: a log, simulated or uploaded, becomes a map."""
 
+import re
 import sys
 
 import numpy as np
@@ -31,7 +32,7 @@ def log_of(n=12, beams=9):
 
 
 def caption(app):
-    return next(text for text in said(app.caption) if "scans of" in text)
+    return next(text for text in said(app.caption) if re.search(r"\bscans? of", text))
 
 
 def test_it_opens_with_a_log_of_its_own():
@@ -90,7 +91,7 @@ def test_timed_scans_are_placed_by_their_trajectory():
     app = upload(app, poses, "poses.txt", TUM, "text/plain")
     app = upload(app, LABEL, "scans.csv", CSV, "text/csv")
     assert not app.error
-    assert caption(app).startswith("scans.csv: 1 scans of 3 beams")
+    assert caption(app).startswith("scans.csv: 1 scan of 3 beams")
 
 
 def test_scans_without_a_pose_at_their_time_are_counted():
@@ -114,7 +115,7 @@ def test_a_bag_is_mapped_where_rosbags_is_installed(tmp_path):
     content = driven(Bag(2)).content(tmp_path, ".mcap")
     app = upload(launch(PAGE), LABEL, "drive.mcap", content)
     assert not app.error
-    assert caption(app).startswith("drive.mcap: 1 scans of 3 beams")
+    assert caption(app).startswith("drive.mcap: 1 scan of 3 beams")
 
 
 def test_without_rosbags_a_bag_is_refused_in_a_sentence(monkeypatch):

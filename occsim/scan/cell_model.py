@@ -285,7 +285,11 @@ def _passed(start: IntArray, end: IntArray) -> tuple[IntArray, IntArray]:
     way = end - start
     length = np.abs(way).max(axis=0)
     beam, step = ragged_ranges(np.zeros_like(length), length)
-    n = length[beam]
-    # The nearest whole number to step |way| / n.
-    off = (2 * step * np.abs(way)[:, beam] + n) // (2 * n)
-    return beam, np.asarray(start[:, beam] + np.sign(way)[:, beam] * off)
+    # The nearest whole number to step way / n, half-way ones away from 0. Quotients of
+    # whole numbers this small are never rounded up to a whole one.
+    twice, half_way = (
+        np.repeat(both, length, axis=1)
+        for both in (2.0 * way, np.copysign(length.astype(np.float64), way))
+    )
+    off = np.trunc((step * twice + half_way) / (2.0 * length[beam]))
+    return beam, np.repeat(start, length, axis=1) + off.astype(np.int64)

@@ -39,6 +39,20 @@ test("the referee says which of two maps is right, by hand", () => {
   assert.equal(player.nextDifference(comparison, [0, 1], false, -1), null);
 });
 
+// One map has a reading of cell 0, the other of cell 1: neither is looked at by both.
+test("cells that one map looked at are not called not looked at", () => {
+  const classes = { isWall: [0, 0], truth: [0, 0] };
+  const [a, b] = [0, 1].map((cell) => {
+    const [column] = pairOf(replayOf(1, 2, 1, [[[cell, -1]]], classes), [ONCE]);
+    player.seek(column.log, 1);
+    return column;
+  });
+  const comparison = player.newComparison(a, b, null);
+  assert.equal(player.countsOf(comparison, true).differ, 0);
+  assert.equal(player.otherUnits(comparison, "cells"), "other cells");
+  assert.equal(player.otherUnits({ pair: [a, a] }, "cells"), "cells not looked at");
+});
+
 // One cell at a time, as a naive referee would.
 function naiveTally([a, b], truth) {
   const tally = { true: [0, 0], false: [0, 0] };

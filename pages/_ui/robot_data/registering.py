@@ -169,7 +169,7 @@ def _numbers(so_far: Registrations, made: PlayedLog) -> None:
     agreed = [registered.agrees(walls, step, made) for step in steps]
     shown = [
         f"{words.percent(one.share_found)} of the drawn walls that the robot looked at "
-        f"are walls in its map, {one.bits:+,.0f} bits"
+        f"are walls in its map, {round(one.bits):+,} bits"
         for one in agreed
     ]
     before = f" Before: {shown[0]}." if len(shown) == 2 else ""

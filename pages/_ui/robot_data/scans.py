@@ -142,7 +142,8 @@ def facts(log: LogFile, made: PlayedLog) -> str:
         name = "Simulated on the tour of this building, with the errors of a small "
         name += "laser scanner (Hokuyo URG-04LX): "
     said = (
-        f"{name}{made.n_scans:,} scans of {scan_log.n_beams} beams; map "
+        f"{name}{made.n_scans:,} scan{'s' * (made.n_scans != 1)} of "
+        f"{scan_log.n_beams} beam{'s' * (scan_log.n_beams != 1)}; map "
         f"{grid.width_px * scale:.1f} m × {grid.height_px * scale:.1f} m in cells of "
         f"{100 * scale:.0f} cm."
     )

@@ -76,9 +76,7 @@ function showReferee(p) {
   const pair = pairOfMaps(p);
   const unit = p.comparison.isByCell ? "cells" : "pixels";
   setText(units[0], ` looked-at ${unit}`);
-  // Of the same readings no other cell was looked at; of others, one map may have looked.
-  const areAlike = p.comparison.pair[0].log === p.comparison.pair[1].log;
-  setText(units[1], areAlike ? ` ${unit} not looked at` : ` other ${unit}`);
+  setText(units[1], ` ${otherUnits(p.comparison, unit)}`);
   for (const pairNames of names) pair.forEach((i, at) => setText(pairNames[at], LETTERS[i]));
   for (const where of ["looked", "unseen"]) {
     const { differ, right } = countsOf(p.comparison, where === "looked");
@@ -94,6 +92,12 @@ function showReferee(p) {
     legendKey("unseen", "both: wall"),
   );
   setText(note, p.comparison.isByCell ? "" : SIZES_DIFFER);
+}
+
+// Where both maps have the same readings, none of the others was looked at; else one of the
+// maps may have a reading of it.
+function otherUnits({ pair: [a, b] }, unit) {
+  return a.log === b.log ? `${unit} not looked at` : `other ${unit}`;
 }
 
 const SIZES_DIFFER =
