@@ -619,7 +619,7 @@ def test_a_mark_that_does_not_set_the_axes_stands_at_the_border_with_its_scores(
         figure.layout.xaxis.range[0],
         figure.layout.yaxis.range[0],
     )
-    assert trace.text[0] == "calibrated: 2 %, 3 %"
+    assert trace.text[0] == "recall 3 %, precision 2 %"
 
 
 def test_before_a_search_only_the_front_is_drawn(run_b):

@@ -46,8 +46,8 @@ CSS = """
 .st-key-lessons > div { height: 1.25rem; }
 .st-key-lessons { column-gap: 0.25rem; }
 .st-key-lessons a { padding-inline: 0.4rem; }
-.occsim-group { display: block; width: 1px; height: 1.25rem; background: currentColor;
-    opacity: 0.3; }
+.occsim-group { display: block; width: 1px; height: 1.25rem; margin: auto;
+    background: currentColor; opacity: 0.3; }
 /* A lesson stands above its maps: it takes as little height as it can. */
 .st-key-lesson, .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem; }
 .st-key-lesson [data-testid="stMarkdownContainer"] { margin-bottom: 0; }

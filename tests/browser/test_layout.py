@@ -120,3 +120,12 @@ def test_two_maps_and_their_headers_fit_a_telephone(phone, app_url):
     for part in phone.locator("[data-pane=map] :is(canvas, .header)").all():
         assert is_whole_on_screen(part)
     assert is_whole_on_screen(phone.locator("[data-do=play]"))
+
+
+def test_the_captions_of_the_scores_are_whole_on_a_small_laptop(page, app_url):
+    page.goto(f"{app_url}/Build_a_map")
+    page.locator(".player[data-ready='1']").wait_for()
+    captions = page.locator(".player [data-score] small")
+    assert captions.count() == 4
+    for caption in captions.all():
+        assert caption.evaluate("node => node.scrollWidth <= node.clientWidth")

@@ -16,9 +16,9 @@ ABOUT = {
     UpdateRule.PRIOR_ONCE: "Each reading adds its log-odds; the prior counts once.",
 }
 SCORES = (
-    ("precision", "Precision", "declared walls that are walls", "share"),
-    ("recall", "Recall", "walls that were declared", "share"),
-    ("f2", "F2", "recall weighs twice as much", "share"),
+    ("precision", "Precision", "right of the declared", "share"),
+    ("recall", "Recall", "found of the walls", "share"),
+    ("f2", "F2", "recall counts double", "share"),
     ("bits", "Bits per cell", "log loss: less is better", "bits"),
 )
 """Of one map: name, label, what it is, unit."""
