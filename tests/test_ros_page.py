@@ -71,6 +71,26 @@ def test_a_map_becomes_a_building_with_its_own_walls_and_scale(page):
     assert (MAP.values[y, x] == 0).all()
 
 
+def lying(app):
+    """Where the page says that the maps of the open building lie."""
+    (text,) = (one for one in said(app.markdown) if "lower left corner lies at" in one)
+    return text.partition(" lies at ")[2]
+
+
+def test_maps_of_a_building_lie_where_its_robots_map_lay():
+    """As robots' programs need them: on one goes by the same coordinates."""
+    app = opened()
+    at_home = "x = 0 m, y = 0 m, turned by 0 rad."
+    assert lying(app) == at_home
+    away = RosMap(values(), 0.05, (-10.0, 2.5, 0.5))
+    app = click(give(app, *two_files(away)), "Use as drawing")
+    assert lying(app) == "x = -10 m, y = 2.5 m, turned by 0.5 rad."
+    # Another building, of another map, lies elsewhere.
+    app.session_state.choice = "b"
+    app.run()
+    assert lying(app) == at_home
+
+
 def test_what_is_unknown_is_said():
     app = give(opened(), ("map.zip", pack(MAP, mode=MapMode.RAW)))
     (text,) = (one for one in said(app.caption) if "unknown (grey)" in one)

@@ -1,14 +1,14 @@
 """Maps of ROS: a robot's map in, as drawing, ground truth or prior; our maps out."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import streamlit as st
 
 from occsim import Corrections
-from occsim.building import mask_of_size
+from occsim.building import Building, mask_of_size
 from occsim.io.images import drawing_png
 from occsim.io.metric import MetricFrame
 from occsim.io.ros_map import RosMap, load_files, map_drawing
@@ -16,6 +16,8 @@ from pages._ui import compute, shell, state, uploads, words
 from pages._ui.robot_data import files
 
 KEPT, KEEP_UNKNOWN = "ros_map", "ros_keep_unknown"
+PLACED = "ros_placed"
+"""Which drawing was made of a map, and where that map lies."""
 UNKNOWN_BELOW = 0.196
 """The level that map servers write for unknown is 205: 0.196 of black."""
 ABOUT = "The .yaml and the image (.pgm or .png) together, or both in one .zip."
@@ -87,14 +89,20 @@ def panel() -> None:
 def facts(name: str, ros_map: RosMap) -> str:
     """What a map is, in a sentence."""
     height, width = ros_map.values.shape
-    x, y, yaw = ros_map.origin
     scale = ros_map.resolution_m
     return (
         f"{words.plain(name)}: {width} × {height} px of {scale:g} m, "
-        f"{width * scale:.1f} m × {height * scale:.1f} m; lower left corner at x = "
-        f"{x:g} m, y = {y:g} m, turned by {yaw:g} rad. Occupied "
+        f"{width * scale:.1f} m × {height * scale:.1f} m; lower left corner at "
+        f"{_place(ros_map.frame)}. Occupied "
         f"{words.percent(float(ros_map.is_occupied.mean()))}, unknown (grey) "
         f"{words.percent(float(ros_map.is_unknown.mean()))}."
+    )
+
+
+def _place(frame: MetricFrame) -> str:
+    return (
+        f"x = {frame.origin_x_m:g} m, y = {frame.origin_y_m:g} m, turned by "
+        f"{frame.origin_yaw_rad:g} rad"
     )
 
 
@@ -147,7 +155,9 @@ def _uses(name: str, ros_map: RosMap) -> None:
 
 
 def _as_drawing(name: str, ros_map: RosMap) -> None:
-    state.open_own(compute.building_of_map(ros_map, name, uploads.working_px()))
+    building = compute.building_of_map(ros_map, name, uploads.working_px())
+    state.open_own(building)
+    state.set_view(PLACED, (building.drawing.digest, ros_map.frame))
 
 
 def _as_truth(name: str, ros_map: RosMap) -> None:
@@ -161,6 +171,16 @@ def _as_prior(name: str, ros_map: RosMap) -> None:
     state.edit_building(found=walls, corrections=Corrections.none(shape))
 
 
+def _frame(building: Building, metres_per_px: float) -> MetricFrame:
+    """Where the maps of a building lie: where its map of ROS lay, if it is of one."""
+    height_px, _ = building.drawing.shape
+    frame = MetricFrame(height_px=height_px, metres_per_px=metres_per_px)
+    digest, lay = state.view(PLACED, ("", frame))
+    if digest != building.drawing.digest:
+        return frame
+    return replace(lay, height_px=height_px, metres_per_px=metres_per_px)
+
+
 def _out() -> None:
     building, settings = state.building(), state.settings()
     if building.metres_per_px is None:
@@ -170,11 +190,10 @@ def _out() -> None:
         )
         return
     run = compute.run(building, settings)
-    height_px, _ = building.drawing.shape
-    frame = MetricFrame(height_px=height_px, metres_per_px=building.metres_per_px)
+    frame = _frame(building, building.metres_per_px)
     st.markdown(
         f"**{words.plain(state.drawing_title(state.choice()))}**, with the settings of "
-        "*Build a map*. The drawing's lower left corner is the origin."
+        f"*Build a map*. The drawing's lower left corner lies at {_place(frame)}."
     )
     occupancy_map, prior_map = run.map(settings.prior), run.prior_map(settings.prior)
     st.image(
