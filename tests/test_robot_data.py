@@ -94,6 +94,15 @@ def test_timed_scans_are_placed_by_their_trajectory():
     assert caption(app).startswith("scans.csv: 1 scan of 3 beams")
 
 
+def test_the_words_are_those_of_the_maps_that_are_shown():
+    app = launch(PAGE)
+    assert any("Left, where beams ended" in text for text in said(app.markdown))
+    app.segmented_control(key="view_robot_maps").set_value(scans.BESIDE).run()
+    assert not app.exception
+    assert any("B is the share of beams" in text for text in said(app.markdown))
+    assert not any("Left, where beams" in text for text in said(app.markdown))
+
+
 def test_scans_without_a_pose_at_their_time_are_counted():
     app = upload(launch(PAGE), "Trajectory (TUM), before timed scans", "p.txt", TUM)
     late = CSV.partition(b"\n")[0] + b"\n11,3,4,5\n99,3,4,5\n"

@@ -17,10 +17,18 @@ from pages._ui.logs import LogFile
 from pages._ui.robot_data import downloads
 from pages._ui.robot_data.played import PlayedLog
 
-SHOWN, ONE = "robot_maps", "One"
+SHOWN, ONE, BESIDE = "robot_maps", "One", "Beside gmapping's"
 COUNTS = replace(LOG_COLUMNS[0], model=CellModel.HITS_VISITS)
-MAPS = {ONE: LOG_COLUMNS, "Beside gmapping's": (*LOG_COLUMNS, COUNTS)}
+MAPS = {ONE: LOG_COLUMNS, BESIDE: (*LOG_COLUMNS, COUNTS)}
 """The maps of a log that can be shown."""
+SEE = {
+    ONE: "Left, where beams ended, all scans together; right, the map. A cell turns "
+    "white where beams pass and black where they end; a hatched one was never looked "
+    "at.",
+    BESIDE: "A adds up what scans say of a cell; B is the share of beams that end in "
+    "it, of those that reach it. A beam fills its sector in A; in B it has no width.",
+}
+NO_TRUTH = "There is no ground truth, so no score."
 LOG, POSES, TAKEN = "robot_log", "robot_log_poses", "robot_logs_taken"
 ABOUT = (
     "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log)"
@@ -172,11 +180,7 @@ def _words() -> None:
     with st.container(key="map_words"):
         see, predict, why = st.columns(3, gap="large")
     with see:
-        st.markdown(
-            "**See.** Left, where beams ended, all scans together; right, the map. A "
-            "cell turns white where beams pass and black where they end; a hatched "
-            "one was never looked at. There is no ground truth, so no score."
-        )
+        st.markdown(f"**See.** {SEE[state.view(SHOWN, ONE)]} {NO_TRUTH}")
     with predict:
         st.markdown(
             "**Predict.** Under *More settings*, let a scan say that all behind the "
