@@ -272,7 +272,7 @@ def test_what_the_browser_keeps_can_be_cleared():
     assert not app.session_state["attempts"]
     assert not app.session_state["lessons"]
     assert app.session_state["cleared"]
-    assert [one.proto.text for one in app.get("progress")] == ["0 of 23 solved"]
+    assert [one.proto.text for one in app.get("progress")] == ["0 of 22 solved"]
 
 
 def test_progress_is_a_file():
