@@ -14,7 +14,9 @@ from pages._ui import compute, limits, navigation, progress
 from pages._ui.classroom import handed_in as module
 from pages._ui.classroom.kept import CLASSES
 from pages._ui.classroom.prepared import Prepared, packed
+from pages._ui.classroom.questions import questions
 from pages._ui.classroom.rooms import ROOMS
+from pages._ui.course import COURSE
 from pages._ui.judging import judged
 from pages._ui.limits import NAMES, OF_PAGES
 from pages._ui.progress import Attempt, Tried
@@ -389,6 +391,29 @@ def test_a_room_that_is_gone_is_said_to_be_so():
     assert "closed" in said(at(CLASS, room="abcdef").warning)[0]
 
 
+def test_home_every_lesson_and_every_exercise_that_predicts_can_be_voted_on():
+    ready = questions(compute.exercises())
+    predicting = [one for one in compute.exercises() if one.prediction is not None]
+    assert [one.lesson for one in ready[:10]] == list(range(10))
+    assert [one.exercise for one in ready[10:]] == [one.id for one in predicting]
+    app = teacher("Vote")
+    offered = app.selectbox(key="view_vote_question").options
+    assert offered == [*(one.title for one in ready), "A question of my own"]
+    for one in ready:
+        code, _ = ROOMS.open(one.text, tuple(one.options.values()))
+        assert ROOMS.seen(code).options == tuple(one.options.values())
+
+
+def test_a_lesson_is_voted_on_in_its_own_words():
+    app = teacher("Vote")
+    app.selectbox(key="view_vote_question").set_value("Lesson 6: What is a good map?")
+    app.run()
+    press(app, "Open a room")
+    code, _ = app.session_state["room"]
+    assert ROOMS.seen(code).options == tuple(COURSE[6].options.values())
+    assert "{" not in ROOMS.seen(code).question
+
+
 def test_a_question_of_ones_own_is_text_and_no_markup():
     app = teacher("Vote")
     app.selectbox(key="view_vote_question").set_value("A question of my own").run()
@@ -450,6 +475,27 @@ def collect(*files):
     app = teacher("Collect")
     give(app, *files)
     return app
+
+
+def test_predictions_of_lessons_are_counted_with_those_of_exercises(handed_in):
+    files = []
+    for i, said_in_4 in enumerate(["never", "never", "half", "no such answer", None]):
+        given = json.loads(handed_in)
+        given["lessons"] = {"4": {"predicted": said_in_4}}
+        files.append((f"{i}.json", json.dumps(given).encode()))
+    app = collect(*files)
+    box = next(one for one in app.selectbox if one.label == "Question")
+    assert box.options == [
+        "Lesson 4: A head start",
+        "Exercise 10: Is it the drawing that helps? Run the control",
+    ]
+    shown = [one.proto.text for one in app.get("progress")]
+    assert shown == [
+        "a quarter of them: 0",
+        "half of them: 1",
+        "all of them: 0",
+        "never on this tour: 2",
+    ]
 
 
 def edited(text, **changes):

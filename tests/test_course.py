@@ -24,10 +24,9 @@ from pages._ui import (
     teaching,
 )
 from pages._ui.components.lens.document import LensDocument
-from pages._ui.course import COURSE
+from pages._ui.course import COURSE, lessons_of
 from pages._ui.priors import answers, triptych
 from pages._ui.settings import Settings
-from pages._ui.state.lesson import lessons_of
 
 
 def test_the_lessons_are_numbered_and_stand_on_pages_of_the_navigation():
@@ -95,7 +94,7 @@ def student(monkeypatch, name):
     """A student who chose a drawing and set nothing; settings can be changed."""
     building = compute.sample(name)
     opening = Settings(range_px=round(building.sensor.range_px))
-    now = SimpleNamespace(settings=opening, lens=LensDocument(), said=None)
+    now = SimpleNamespace(settings=opening, lens=LensDocument(), said=None, tried=True)
     known = SimpleNamespace(
         building=lambda: building,
         choice=lambda: name,
@@ -103,6 +102,7 @@ def student(monkeypatch, name):
         settings=lambda: now.settings,
         take_from_lens=lambda: now.lens,
         prediction=lambda _: now.said,
+        was_tried=lambda _: now.tried,
     )
     for module in (outcomes, answers):
         monkeypatch.setattr(module, "state", known)
@@ -186,6 +186,24 @@ def test_a_second_equal_reading_is_worth_as_much_in_l(monkeypatch, prior, answer
     found = lens_outcomes(monkeypatch, LensDocument(p_free=prior))[1]
     assert found.answer == answer
     assert said in found.text
+
+
+def test_lesson_5_gives_no_score_of_the_line_up_before_that_was_attempted(
+    student, name
+):
+    """Exercise 16 asks for six scores of c; lesson 5 would tell four of them."""
+    after = outcomes.whose_drawing()
+    assert after.text.count("%") == 5
+    student.tried = False
+    before = outcomes.whose_drawing()
+    assert before.answer == after.answer
+    assert ("%" in before.text) is (name != "c")
+    assert ("exercise 16" in before.text.lower()) is (name == "c")
+
+
+def test_lesson_3_opens_with_the_belief_and_no_errors():
+    """With *Errors* every wall is blue from the start: it asks which comes first."""
+    assert "overlay" not in COURSE[3].settings
 
 
 def test_where_the_drawing_is_taken_off_equal_readings_add_as_much_as_each_other(

@@ -16,6 +16,7 @@ from occsim.exercises import (
     judge,
     load_exercise,
     load_exercises,
+    with_draw,
 )
 from occsim.exercises.grammar import MAX_CHARACTERS, holds, parse, parse_sum, value
 
@@ -274,6 +275,107 @@ def test_a_bad_exercise_is_refused_in_one_sentence(old, new, sentence):
     text = GOOD.replace(old, new)
     with pytest.raises(ParameterError, match=re.escape(sentence)):
         load_exercise(text.encode())
+
+
+DRAWS = GOOD.replace(
+    "[[check]]", '[draw]\nrule = ["prior_once", "subtract_prior"]\n[[check]]'
+)
+DRAWS = DRAWS.replace("set.p_wall >= 0.5", "answer.rule == set.rule").replace(
+    "[[hint]]",
+    """[[question]]
+name = "rule"
+question = "Which?"
+options = ["prior_once", "subtract_prior"]
+[[hint]]""",
+    1,
+)
+PROOF = (
+    'witness = {{ answer = {{ rule = "{}" }} }}\n'
+    'wrong = {{ answer = {{ rule = "{}" }} }}\n'
+)
+ONCE = PROOF.format("prior_once", "subtract_prior")
+SUBTRACT = PROOF.format("subtract_prior", "prior_once")
+HEAD = DRAWS[: DRAWS.index("[proof]")]
+DRAWS = f"{HEAD}[proof.prior_once]\n{ONCE}[proof.subtract_prior]\n{SUBTRACT}"
+
+
+def test_what_is_drawn_is_judged_as_it_was_drawn():
+    exercise = load_exercise(DRAWS.encode())
+    for rule in UpdateRule:
+        opened = with_draw(exercise, rule.value)
+        assert opened.setup.rule is rule
+        assert opened.settings["rule"] == rule.value
+        for answer in UpdateRule:
+            given = changed(opened.setup, {"answer": {"rule": answer.value}})
+            assert judge(opened, given).is_solved is (answer is rule)
+
+
+def test_an_exercise_that_draws_is_proven_for_each_value():
+    half = f"{HEAD}[proof.prior_once]\n{ONCE}"
+    with pytest.raises(ParameterError, match="a table for 'subtract_prior', if drawn"):
+        load_exercise(half.encode())
+    wrong = f"{half}[proof.subtract_prior]\n{ONCE}"
+    with pytest.raises(ParameterError, match="does not hold at the witness"):
+        load_exercise(wrong.encode())
+
+
+@pytest.mark.parametrize(
+    ("draw", "sentence"),
+    [
+        ('rule = ["prior_once"]', "draws from 2 values or more"),
+        ('rule = "prior_once"', "draws from 2 values or more"),
+        ('rule = ["prior_once", "twice"]', "rule must be one of"),
+        ("p_wall = [0.2, 7.0]", "p_wall must"),
+        ("colour = [1, 2]", "draw must name one setting"),
+        ("p_wall = [0.1, 0.2]\np_space = [0.1, 0.2]", "draw must name one setting"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused(draw, sentence):
+    old = 'rule = ["prior_once", "subtract_prior"]\n[[check]]'
+    assert old in DRAWS
+    with pytest.raises(ParameterError, match=sentence):
+        load_exercise(DRAWS.replace(old, f"{draw}\n[[check]]").encode())
+
+
+@pytest.mark.parametrize("value", ["twice", 3.0, None])
+def test_only_what_an_exercise_draws_from_is_drawn(value):
+    with pytest.raises(ParameterError, match="value must be one"):
+        with_draw(load_exercise(DRAWS.encode()), value)
+    with pytest.raises(ParameterError, match="value must be one"):
+        with_draw(load_exercise(GOOD.encode()), "prior_once")
+    with pytest.raises(TypeError):
+        with_draw("x", "prior_once")
+
+
+TOGETHER = (
+    GOOD.replace("p_wall = 0.2\n", "p_wall = 0.2\np_space = 0.2\n")
+    .replace('show = ["p_wall"]', 'together = ["p_wall", "p_space"]')
+    .replace("{ p_wall = 0.6 }", "{ p_wall = 0.6, p_space = 0.6 }")
+)
+
+
+def test_controls_that_move_together_open_and_are_proven_at_one_value():
+    assert load_exercise(TOGETHER.encode()).together == ("p_wall", "p_space")
+    for old, new, sentence in (
+        ("p_space = 0.2\n", "p_space = 0.3\n", "move together and open apart"),
+        ("p_space = 0.2\n", "", "move together and open apart"),
+        (", p_space = 0.6", "", "the witness moves p_wall and p_space apart"),
+        ('"p_space"]', '"rule"]', "together are some of p_wall, p_space; got rule"),
+    ):
+        assert old in TOGETHER
+        with pytest.raises(ParameterError, match=sentence):
+            load_exercise(TOGETHER.replace(old, new).encode())
+
+
+def test_an_exercise_can_be_read_without_its_proof():
+    """To list many at once: what is refused by its proof alone is read."""
+    bad = GOOD.replace("p_wall = 0.6 }", "p_wall = 0.3 }").encode()
+    with pytest.raises(ParameterError, match="does not hold at the witness"):
+        load_exercise(bad)
+    assert load_exercise(bad, prove=False).id == "x"
+    with pytest.raises(ParameterError):
+        load_exercise(GOOD.replace("minutes = 1", "").encode(), prove=False)
+    assert load_exercises(OURS, prove=False) == load_exercises(OURS)
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,11 @@ import pytest
 from streamlit.testing.v1 import AppTest
 
 from occsim import UpdateRule
-from pages._ui import compute
+from pages._ui import compute, judging
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.progress import FORMAT, Attempt
 from pages._ui.state import exercise as kept
+from pages._ui.state import held
 from tests.test_pages import ROOT, said
 
 LIST = "pages/9_Exercises.py"
@@ -158,6 +159,120 @@ def test_leaving_does_not_tell_what_was_hidden_to_be_found_out():
     press(app, "Leave the exercise")
     assert state["settings"].rule is UpdateRule.PRIOR_ONCE
     assert state["settings"].p_wall == 0.4
+
+
+def which_rule(app, answer):
+    """Find out by the steps that exercise 15 asks for, answer, and check."""
+    settings = app.session_state["settings"]
+    played = dict(app.session_state["played"])
+    pinned = replace(played["map_player"], pin_px=(268.5, 97.5))  # cell 32, 89
+    app.session_state["played"] = played | {"map_player": pinned}
+    app.session_state["imposed"] = {}
+    app.run()
+    for p_wall in (0.2, 0.7):
+        app.session_state["settings"] = replace(settings, p_wall=p_wall)
+        app.session_state["imposed"] = {}
+        app.run()
+    boxes = {one.label: one for one in app.selectbox}
+    boxes["Which rule is running?"].set_value(answer)
+    boxes["Because"].set_value(boxes["Because"].options[0]).run()
+    press(app, "Check")
+
+
+def rules_drawn(seed):
+    found = exercise("which_rule")
+    return [held.drawn(found, seed, times).setup.rule.value for times in range(8)]
+
+
+# Seeds that draw each rule first, and the other one when it is drawn again.
+SEEDS = {
+    rules[0]: seed
+    for seed in map(str, range(20))
+    for rules in [rules_drawn(seed)]
+    if rules[0] != rules[1]
+}
+
+
+@pytest.mark.parametrize("rule", ["prior_once", "subtract_prior"])
+def test_the_rule_to_find_out_is_drawn_and_drawn_again_for_the_third_attempt(rule):
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.session_state["seed"] = SEEDS[rule]
+    app.query_params["exercise"] = "which_rule"
+    app.switch_page("pages/1_Build_a_map.py").run()
+    predict(app)
+    other = next(one for one in SEEDS if one != rule)
+
+    def running():
+        return app.session_state["settings"].rule.value
+
+    for _ in range(2):
+        assert running() == rule
+        assert "drawn anew" not in words(app)
+        which_rule(app, other)
+        assert "Not yet." in words(app)
+    assert "drawn anew" in words(app)
+    assert running() == other
+    which_rule(app, other)
+    assert "Solved." in words(app)
+    assert running() == other
+    # What is handed in is judged by the rule that was drawn.
+    attempt = app.session_state["attempts"]["which_rule"]
+    assert judging.judged(exercise("which_rule"), attempt).is_solved
+
+
+def test_sessions_draw_each_rule_about_as_often():
+    drawn = [rules_drawn(str(seed))[0] for seed in range(200)]
+    assert 70 < drawn.count("prior_once") < 130
+
+
+def test_an_exercise_is_proven_when_it_is_opened_and_not_when_it_is_listed(
+    monkeypatch,
+):
+    asked = []
+    monkeypatch.setattr(compute, "refusal", lambda number: asked.append(number) or "")
+    for page in ("app.py", LIST):
+        app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+        app.switch_page(page).run()
+        assert not app.exception
+    assert asked == []
+    app.button(key="open_upside_down").click().run()
+    assert set(asked) == {18}
+
+
+def test_an_exercise_that_is_refused_does_not_open_and_says_why(monkeypatch):
+    monkeypatch.setattr(compute, "refusal", lambda _: "18_x.toml: it holds already")
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.switch_page(LIST).run()
+    app.button(key="open_upside_down").click().run()
+    assert "it holds already" in "\n".join(said(app.error))
+    assert app.session_state["exercise"] is None
+    linked = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    linked.query_params["exercise"] = "upside_down"
+    linked.switch_page("pages/1_Build_a_map.py").run()
+    assert "Exercise 18" not in words(linked)
+
+
+def test_a_link_with_nothing_but_an_exercise_opens_it_as_it_begins():
+    app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
+    app.query_params["exercise"] = "drive_it_again"
+    app.switch_page("pages/3_Two_maps.py").run()
+    own, blank = app.session_state["settings"].columns
+    assert (own.uninformative, blank.uninformative) == (False, True)
+    assert app.session_state["choice"] == "c"
+
+
+def test_what_the_browser_keeps_can_be_cleared():
+    app = opened("upside_down")
+    predict(app)
+    press(app, "Check")
+    app.switch_page("app.py").run()
+    app.switch_page(LIST).run()
+    assert app.session_state["attempts"]
+    press(app, "Clear it all")
+    assert not app.session_state["attempts"]
+    assert not app.session_state["lessons"]
+    assert app.session_state["cleared"]
+    assert [one.proto.text for one in app.get("progress")] == ["0 of 22 solved"]
 
 
 def test_progress_is_a_file():

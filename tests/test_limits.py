@@ -8,13 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from streamlit.testing.v1 import AppTest
 
+from occsim import UpdateRule
 from occsim.exercises import CONTROLS
 from pages._ui import compute, limits
+from pages._ui.choices import Overlay
+from pages._ui.classroom.prepared import Prepared, packed
 from pages._ui.columns import Column
 from pages._ui.components.player import encode_document, player_data
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.limits import NAMES, OF_LENS, OF_ONE_MAP, OF_SEVERAL, Limits
 from pages._ui.settings import TABLE, Settings
+from pages._ui.state import held
 from tests.test_pages import ROOT, control, said
 from tests.test_player_document import ONE, REPLAY
 from tests.test_settings import ANY_COLUMN, ANY_SETTINGS
@@ -72,6 +76,14 @@ def test_each_of_several_maps_keeps_what_is_held(column):
     assert first == replace(column, p_wall=0.3, calibrated=False, rule=Column().rule)
 
 
+@given(wanted=ANY_SETTINGS)
+def test_what_moves_together_has_the_value_of_the_first(wanted):
+    kept = Limits(together=("p_wall", "p_space")).kept(wanted)
+    assert replace(kept, p_space=wanted.p_space, columns=wanted.columns) == wanted
+    assert kept.p_space == kept.p_wall
+    assert all(one.p_space == one.p_wall for one in kept.columns)
+
+
 def test_the_number_of_maps_can_be_held():
     held = Limits(hidden=frozenset({"columns"}))
     assert held.kept(Settings(columns=(Column(),) * 3)) == Settings()
@@ -84,8 +96,9 @@ def test_a_preset_goes_with_the_rule_that_it_would_tell():
 
 def test_an_exercise_hides_all_that_it_does_not_show():
     found = limits.of_exercise(exercise("first_wall"), Settings())
-    assert found.hidden.isdisjoint({"transport", "overlay", "scores", "ladder"})
+    assert found.hidden.isdisjoint({"transport", "scores", "ladder"})
     assert found.hidden >= {"p_wall", "rule", "cell_px", "drawing", "missing_share"}
+    assert found.hidden >= {"overlay", "laps", "model"}
     assert found.drawing == "d"
 
 
@@ -117,7 +130,8 @@ def test_an_edited_link_does_not_move_what_an_exercise_holds():
         drawing="a",
     )
     settings = app.session_state["settings"]
-    assert settings.rule.value == "prior_once"
+    drawn = held.drawn(exercise("which_rule"), app.session_state["seed"], 0)
+    assert settings.rule is drawn.setup.rule
     assert settings.cell_px == 3
     assert settings.p_wall == 0.6  # shown, so free to be moved
     assert app.session_state["choice"] == "d"
@@ -137,6 +151,52 @@ def test_an_event_of_the_player_does_not_move_what_is_locked():
     assert not settings.uninformative
 
 
+def test_a_control_that_moves_with_another_cannot_be_moved_apart_from_it():
+    """Exercise 10: by a link, and by an event that claims another value."""
+    app = at(BUILD, exercise="run_the_control", p_wall="0.3", p_space="0.9")
+    settings = app.session_state["settings"]
+    assert (settings.p_wall, settings.p_space) == (0.3, 0.3)
+    imposed = app.session_state["imposed"]["map_player"]
+    [column] = imposed.columns
+    forged = replace(imposed, columns=(replace(column, p_wall=0.12, p_space=0.9),))
+    app.session_state["map_player"] = {"committed": encode_document(forged)}
+    app.run()
+    settings = app.session_state["settings"]
+    assert (settings.p_wall, settings.p_space) == (0.12, 0.12)
+
+
+ROBOT = "pages/4_Robot_data.py"
+
+
+def robot(**limits):
+    """The page of a robot's log, as a class finds it."""
+    return at(ROBOT, plan=packed(Prepared(page=ROBOT, **limits)))
+
+
+def test_what_a_class_holds_of_a_log_s_map_holds_against_an_event_of_the_player():
+    app = robot(lock=("transport", "overlay", "rule"))
+    imposed = app.session_state["imposed"]["robot_player"]
+    [column] = imposed.columns
+    moved = replace(column, rule=UpdateRule.SUBTRACT_PRIOR)
+    forged = replace(imposed, step=1, overlay=Overlay.WALL_MASK, columns=(moved,))
+    app.session_state["robot_player"] = {"committed": encode_document(forged)}
+    app.run()
+    played = app.session_state["played"]["robot_player"]
+    assert (played.step, played.overlay) == (imposed.step, Overlay.NONE)
+    assert played.columns == imposed.columns
+
+
+def test_a_class_hides_and_locks_the_controls_of_a_log():
+    app = robot(hide=("usable_range_m", "log_maps"), lock=("log_cell_m", "drawing"))
+    assert app.slider(key=control(app, "log_cell_m")).disabled
+    drawn = {one.key for one in app.slider}
+    assert control(app, "usable_range_m") not in drawn
+    assert not [one for one in app.segmented_control if one.label == "Maps"]
+    # A log of one's own would take the drawing's place.
+    assert not app.get("file_uploader")
+    assert "2 controls are hidden by your teacher." in said(app.caption)
+
+
 def test_hidden_controls_are_off_the_page_and_counted():
     app = at(BUILD, exercise="first_wall")
     drawn = {one.key for kind in (app.slider, app.selectbox) for one in kind}
@@ -144,8 +204,8 @@ def test_hidden_controls_are_off_the_page_and_counted():
     [words] = [text for text in said(app.caption) if "hidden by exercise 5" in text]
     n_hidden = int(words.split()[0])
     # The drawing, three sliders, seven errors and whose drawing, five settings behind a
-    # button, and four of the player: both values, no drawing, the rule.
-    assert n_hidden == 1 + 3 + 8 + 5 + 4
+    # button, and five of the player: both values, no drawing, the rule, what is shown.
+    assert n_hidden == 1 + 3 + 8 + 5 + 5
 
 
 def test_a_locked_control_is_seen_and_disabled():

@@ -17,6 +17,7 @@ from pages._ui.choices import (
     Flaw,
     FrontAxes,
     Handover,
+    Laps,
     Objectives,
     Overlay,
     Picture,
@@ -45,6 +46,7 @@ ANY_COLUMN = st.builds(
     rule=st.sampled_from(UpdateRule),
     behind_hit=st.sampled_from(BehindHit),
     model=st.sampled_from(CellModel),
+    laps=st.sampled_from(Laps),
 )
 ANY_SETTINGS = st.builds(
     Settings,

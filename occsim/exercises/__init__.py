@@ -4,7 +4,15 @@ An exercise is a TOML file. It is refused when it is read if its check holds alr
 its set-up, does not hold at its witness, or holds at its wrong answer.
 """
 
-from occsim.exercises.exercise import Check, Exercise, Question, Verdict, judge
+from occsim.exercises.exercise import (
+    Check,
+    Draw,
+    Exercise,
+    Question,
+    Verdict,
+    judge,
+    with_draw,
+)
 from occsim.exercises.facts import Context, Facts
 from occsim.exercises.load import CONTROLS, load_exercise, load_exercises
 from occsim.exercises.state import ExerciseState, changed
@@ -13,6 +21,7 @@ __all__ = [
     "CONTROLS",
     "Check",
     "Context",
+    "Draw",
     "Exercise",
     "ExerciseState",
     "Facts",
@@ -22,4 +31,5 @@ __all__ = [
     "judge",
     "load_exercise",
     "load_exercises",
+    "with_draw",
 ]

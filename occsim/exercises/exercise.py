@@ -2,10 +2,10 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from occsim.errors import ParameterError, expect
+from occsim.errors import ParameterError, expect, shown
 from occsim.exercises.facts import SHARES, Context, Facts, Readings, simulated
 from occsim.exercises.grammar import (
     Tree,
@@ -16,7 +16,7 @@ from occsim.exercises.grammar import (
     parse_sum,
     value,
 )
-from occsim.exercises.state import ExerciseState
+from occsim.exercises.state import ExerciseState, changed
 
 REASON = "reason"
 """Name of the answer to the question "because"."""
@@ -85,6 +85,14 @@ class Verdict:
     near_miss: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Draw:
+    """A setting that is drawn by lot when an exercise opens, and its values."""
+
+    setting: str
+    values: tuple[Value, ...]
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Exercise:
     """One exercise, parsed and proven.
@@ -104,6 +112,10 @@ class Exercise:
     show, lock, hide : tuple of str
         Controls that stay, if only some do; those that cannot be moved; and controls
         and outputs that are not seen.
+    together : tuple of str
+        Controls that always have the same value: one that is moved moves all.
+    draw : Draw or None
+        What is drawn by lot; `with_draw` gives the exercise with a value of it.
     prediction : Question or None
         Asked first, stored and not judged.
     questions : tuple of Question
@@ -135,6 +147,8 @@ class Exercise:
     show: tuple[str, ...] = ()
     lock: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
+    together: tuple[str, ...] = ()
+    draw: Draw | None = None
     prediction: Question | None = None
     questions: tuple[Question, ...] = ()
     reason: Question | None = None
@@ -145,6 +159,52 @@ class Exercise:
     after: str = ""
     context: Context = field(default_factory=Context)
     is_open: bool = False
+
+
+def with_draw(exercise: Exercise, value: Value) -> Exercise:
+    """Return an exercise that opens with one of the values that it draws from.
+
+    Parameters
+    ----------
+    exercise : Exercise
+        One with a ``draw``.
+    value : float, bool or str
+        One of ``exercise.draw.values``.
+
+    Returns
+    -------
+    Exercise
+
+    Raises
+    ------
+    TypeError
+        Where the exercise is none.
+    ParameterError
+        Where it draws nothing, or not this value.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from occsim.exercises import load_exercise
+    >>> folder = Path("assets/exercises")
+    >>> file = folder / "15_which_rule_is_running.toml"
+    >>> exercise = load_exercise(file, prove=False)  # doctest: +SKIP
+    >>> with_draw(exercise, "subtract_prior").setup.rule  # doctest: +SKIP
+    <UpdateRule.SUBTRACT_PRIOR: 'subtract_prior'>
+    """
+    expect("exercise", exercise, Exercise)
+    values = exercise.draw.values if exercise.draw else ()
+    if exercise.draw is None or value not in values:
+        raise ParameterError(
+            f"value must be one that the exercise draws from ({shown(values)}); got "
+            f"{shown(value)}"
+        )
+    drawn = {exercise.draw.setting: value}
+    return replace(
+        exercise,
+        setup=changed(exercise.setup, drawn),
+        settings={**exercise.settings, **drawn},
+    )
 
 
 def judge(

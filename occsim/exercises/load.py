@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -10,21 +10,25 @@ from typing import Any
 from occsim.errors import OccsimError, ParameterError, shown
 from occsim.exercises.exercise import (
     REASON,
+    Draw,
     Exercise,
     NearMiss,
     Question,
-    judge,
     parsed_checks,
     quantities,
 )
 from occsim.exercises.facts import GROUPS, Context, Readings, is_fact, simulated
 from occsim.exercises.grammar import Tree, names_of, parse
+from occsim.exercises.proof import POINTED, run_proof
 from occsim.exercises.sound import require_controls, require_sound
 from occsim.exercises.state import FLAWS, SETTINGS, ExerciseState, changed
 
 MAX_BYTES = 100_000
 MAX_FILES = 500
 FEWEST_HINTS = 2
+FEWEST_DRAWN = 2
+TOGETHER = ("p_wall", "p_space")
+"""Controls that can be made to move together."""
 PAGES = (
     "what_the_sensor_says",
     "build_a_map",
@@ -35,10 +39,8 @@ PAGES = (
     "best_prior",
     "study",
 )
-_POINTED = ("cell", "lens_cell", "lens_pose")
-"""Settings without a control of their own: one points at the map."""
 CONTROLS = (
-    *(name for name in SETTINGS if name not in (*_POINTED, "step")),
+    *(name for name in SETTINGS if name not in (*POINTED, "step")),
     *FLAWS,
     *("transport", "errors", "scores", "ladder"),
 )
@@ -48,17 +50,21 @@ scores, and a cell's readings one by one."""
 _KEYS = {
     *("id", "title", "lesson", "minutes", "page", "goal", "open", "other", "lineup"),
     *("setup", "controls", "predict", "question", "reason", "check", "near_miss"),
-    *("hint", "after", "proof", "reference"),
+    *("hint", "after", "proof", "reference", "draw"),
 }
 
 
-def load_exercises(folder: str | PathLike[str]) -> tuple[Exercise, ...]:
+def load_exercises(
+    folder: str | PathLike[str], *, prove: bool = True
+) -> tuple[Exercise, ...]:
     """Return the exercises of a folder, each proven.
 
     Parameters
     ----------
     folder : path
         Holds files ``NN_name.toml``.
+    prove : bool, default True
+        As in `load_exercise`.
 
     Returns
     -------
@@ -78,7 +84,7 @@ def load_exercises(folder: str | PathLike[str]) -> tuple[Exercise, ...]:
     files = sorted(Path(folder).glob("*.toml"))[:MAX_FILES]
     if not files:
         raise ParameterError(f"the folder {shown(str(folder))} has no exercise (.toml)")
-    found = tuple(load_exercise(file) for file in files)
+    found = tuple(load_exercise(file, prove=prove) for file in files)
     ids = [one.id for one in found]
     twice = next((name for name in ids if ids.count(name) > 1), None)
     if twice is not None:
@@ -91,6 +97,7 @@ def load_exercise(
     *,
     name: str = "exercise",
     readings: Readings = simulated,
+    prove: bool = True,
 ) -> Exercise:
     """Return the exercise of one file, proven.
 
@@ -102,6 +109,9 @@ def load_exercise(
         Name of the file, where its content is given.
     readings : callable, optional
         As in `Facts`; the proof needs them.
+    prove : bool, default True
+        Whether the proof is run: it simulates, where reading the file takes a
+        millisecond. One who lists exercises may prove each when it is opened.
 
     Returns
     -------
@@ -119,9 +129,13 @@ def load_exercise(
     else:
         name, content = Path(source).name, _read(Path(source))
     try:
-        return _exercise(_tables(content), name, readings)
+        given = _tables(content)
+        made = _exercise(given, name)
+        if prove and not made.is_open:
+            run_proof(made, _table(given, "proof"), readings)
     except OccsimError as error:
         raise ParameterError(f"{name}: {error}") from error
+    return made
 
 
 def _read(path: Path) -> bytes:
@@ -143,7 +157,7 @@ def _tables(content: bytes) -> dict[str, Any]:
         raise ParameterError(f"not a TOML file: {error}") from error
 
 
-def _exercise(given: Mapping[str, Any], name: str, readings: Readings) -> Exercise:
+def _exercise(given: Mapping[str, Any], name: str) -> Exercise:
     unknown = sorted(set(given) - _KEYS)
     if unknown:
         raise ParameterError(f"there is no key called {unknown[0]!r} in an exercise")
@@ -164,6 +178,8 @@ def _exercise(given: Mapping[str, Any], name: str, readings: Readings) -> Exerci
         show=_names(controls, "show"),
         lock=_names(controls, "lock"),
         hide=_names(controls, "hide"),
+        together=_together(controls, settings),
+        draw=_draw(_table(given, "draw")),
         prediction=_question(given.get("predict"), "predict"),
         questions=tuple(
             _asked(one, _text(one, "name")) for one in _rows(given, "question")
@@ -185,8 +201,6 @@ def _exercise(given: Mapping[str, Any], name: str, readings: Readings) -> Exerci
         is_open=given.get("open", False) is True,
     )
     _require_parts(made)
-    if not made.is_open:
-        _prove(made, _table(given, "proof"), readings)
     return made
 
 
@@ -227,6 +241,38 @@ def _names(controls: Mapping[str, Any], key: str) -> tuple[str, ...]:
                 f"{', '.join(CONTROLS)}"
             )
     return tuple(names)
+
+
+def _together(
+    controls: Mapping[str, Any], settings: Mapping[str, Any]
+) -> tuple[str, ...]:
+    """Return the controls that move together, which open at the same value."""
+    names = _names(controls, "together")
+    for name in names:
+        if name not in TOGETHER:
+            raise ParameterError(
+                f"the controls that move together are some of {', '.join(TOGETHER)}; "
+                f"got {name}"
+            )
+    if any(settings.get(name) != settings.get(names[0]) for name in names):
+        raise ParameterError(f"{' and '.join(names)} move together and open apart")
+    return names
+
+
+def _draw(given: Mapping[str, Any]) -> Draw | None:
+    """Return what is drawn by lot: one setting, and two values of it or more."""
+    if not given:
+        return None
+    [(name, values), *others] = given.items()
+    if others or name not in (*SETTINGS, *FLAWS):
+        raise ParameterError(f"draw must name one setting; got {shown(list(given))}")
+    if not isinstance(values, list) or len(values) < FEWEST_DRAWN:
+        raise ParameterError(
+            f"an exercise draws from {FEWEST_DRAWN} values or more; got {shown(values)}"
+        )
+    for value in values:
+        changed(ExerciseState(), {name: value})  # refused here if it is out of bounds
+    return Draw(name, tuple(values))
 
 
 def _rows(given: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
@@ -311,57 +357,3 @@ def _require_names(tree: Tree, made: Exercise) -> None:
             raise ParameterError(
                 f"there is no fact called {name!r}; the groups of facts are {known}"
             )
-
-
-# --- Proof ----------------------------------------------------------------------------
-
-
-def _prove(made: Exercise, proof: Mapping[str, Any], readings: Readings) -> None:
-    witnesses, wrong = _states(proof, "witness"), _states(proof, "wrong")
-    if len(witnesses) != len(made.checks):
-        raise ParameterError(
-            f"the proof needs a witness for each of {len(made.checks)} checks; got "
-            f"{len(witnesses)}"
-        )
-    if not wrong:
-        raise ParameterError("the proof needs a wrong answer")
-    for witness in witnesses:
-        _require_reachable(made, witness)
-    if _solves(made, {}, 0, readings):
-        raise ParameterError("the check holds already at the set-up")
-    for stage, witness in enumerate(witnesses):
-        if not _solves(made, witness, stage, readings):
-            verdict = judge(made, changed(made.setup, witness), stage, readings)
-            raise ParameterError(
-                f"the check does not hold at the witness {witness}: {verdict.distance}"
-            )
-    for answer in wrong:
-        if _solves(made, answer, len(made.checks) - 1, readings):
-            raise ParameterError(f"the check holds at the wrong answer {answer}")
-
-
-def _states(proof: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
-    value = proof.get(key, [])
-    rows: Sequence[Any] = [value] if isinstance(value, dict) else value
-    if not all(isinstance(row, dict) for row in rows):
-        raise ParameterError(f"{key} must be a table, or several; got {shown(value)}")
-    return list(rows)
-
-
-def _solves(
-    made: Exercise, changes: Mapping[str, Any], stage: int, readings: Readings
-) -> bool:
-    return judge(made, changed(made.setup, changes), stage, readings).is_solved
-
-
-def _require_reachable(made: Exercise, witness: Mapping[str, Any]) -> None:
-    """Check that every control that the witness moves is shown and not locked."""
-    for name in witness:
-        if name not in (*SETTINGS, *FLAWS) or name in _POINTED:
-            continue
-        control = "transport" if name == "step" else name
-        if control in made.lock:
-            raise ParameterError(f"the witness moves {control}, which is locked")
-        is_hidden = made.show and control not in made.show
-        if is_hidden or control in made.hide:
-            raise ParameterError(f"the witness moves {control}, which is hidden")

@@ -124,6 +124,16 @@ class CellModel(Enum):
     HITS_VISITS = "hits_visits"
 
 
+class Laps(Enum):
+    """How often the robot has driven its tour."""
+
+    ONE = "1"
+    TWO = "2"
+    THREE = "3"
+    FOUR = "4"
+    EIGHT = "8"
+
+
 class Preset(Enum):
     """A named set of conditions."""
 

@@ -6,7 +6,7 @@ from enum import Enum
 
 from occsim import BehindHit, DrawingFlaws, UpdateRule
 from occsim.prior import SOURCE_PAIR
-from pages._ui.choices import CellModel, Flaw, PriorDrawing
+from pages._ui.choices import CellModel, Flaw, Laps, PriorDrawing
 
 FLAWS: Mapping[Flaw, DrawingFlaws] = {
     Flaw.FOUND: DrawingFlaws(),
@@ -46,6 +46,8 @@ class Column:
     model : CellModel
         What the map keeps of each cell: log-odds, or gmapping's counts, which take no
         prior.
+    laps : Laps
+        How often the robot has driven its tour: each lap adds the same readings again.
     """
 
     prior_drawing: PriorDrawing = PriorDrawing.OWN
@@ -58,6 +60,7 @@ class Column:
     behind_hit: BehindHit = BehindHit.OCCUPIED
     cell_px: int = 3
     model: CellModel = CellModel.LOG_ODDS
+    laps: Laps = Laps.ONE
 
 
 MIN_COLUMNS, MAX_COLUMNS = 2, 3
@@ -75,7 +78,7 @@ LOG_COLUMNS = (Column(uninformative=True, behind_hit=BehindHit.UNSEEN, cell_px=1
 DRAWN_COLUMNS = (*LOG_COLUMNS, Column(behind_hit=BehindHit.UNSEEN, cell_px=1))
 """The same, and a map with the drawing that was registered on it."""
 _LETTERS = dict(
-    zip("dfwscurbzm", [one.name for one in fields(Column)], strict=True),
+    zip("dfwscurbzml", [one.name for one in fields(Column)], strict=True),
 )
 """The field that each letter stands for in a link."""
 

@@ -119,11 +119,24 @@ def _mapped(digest: str, settings: MapSettings, _building: Building) -> MappingR
     return run
 
 
-@shared("Proving the exercises")
+@shared()
 def exercises() -> tuple[Exercise, ...]:
-    """The exercises of this app, each proven."""
-    with core():
-        return load_exercises(EXERCISES)
+    """The exercises of this app, to list: one is proven when it is opened.
+
+    Proving all of them takes seconds on a busy machine, and the home page lists them.
+    """
+    return load_exercises(EXERCISES, prove=False)
+
+
+@shared()
+def refusal(number: int) -> str:
+    """Why an exercise of this app cannot be opened; empty where it is proven."""
+    (file,) = EXERCISES.glob(f"{number:02}_*.toml")
+    try:
+        load_exercise(file, readings=of_sample)
+    except OccsimError as error:
+        return str(error)
+    return ""
 
 
 @shared("Proving the exercises of the class")

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from occsim import UpdateRule
-from pages._ui.choices import Overlay
 from pages._ui.columns import OPENING_COLUMNS, Column
 
 BLANK = Column(uninformative=True)
@@ -58,6 +57,11 @@ class Lesson:
         """Its number, title and question."""
         colon = "" if self.title.endswith("?") else ":"
         return f"{self.number}. {self.title}{colon} {self.question}"
+
+    @property
+    def asked(self) -> str:
+        """What is asked before, where no page fills in its numbers."""
+        return self.predict.format(coverage="part", target="more")
 
 
 COURSE = (
@@ -113,8 +117,9 @@ COURSE = (
         title="A map from nothing",
         question="What does a robot without a drawing miss?",
         path="pages/1_Build_a_map.py",
-        see="The map starts at one half everywhere, and each reading adds what it saw "
-        "in its cone. Black walls are found, orange ones false, blue ones missed.",
+        see="The map starts at one half everywhere; a reading darkens the cells that "
+        "it takes for wall. At the end show *Errors*: blue walls are missed, and those "
+        "that are not hatched were looked at.",
         why="The walls that the robot looks at and misses lie across an edge: part of "
         "such a cell is space, and the readings see mostly that part.",
         predict="It sets out without a drawing. Which wall will be on its map first?",
@@ -124,7 +129,7 @@ COURSE = (
             "outer": "the outer walls",
         },
         drawing="c",
-        settings={"uninformative": True, "overlay": Overlay.ERRORS},
+        settings={"uninformative": True},
     ),
     Lesson(
         number=4,
@@ -251,3 +256,22 @@ def lessons_on(path: str) -> tuple[Lesson, ...]:
 def lesson_in(text: str, path: str) -> Lesson | None:
     """Return the lesson that a link to a page names; None where it names none of it."""
     return next((one for one in lessons_on(path) if str(one.number) == text), None)
+
+
+# --- What was predicted, in a progress ------------------------------------------------
+
+
+def lessons_of(given: object) -> dict[int, str]:
+    """Return the lessons of a progress; what cannot be read is left out."""
+    if not isinstance(given, Mapping):
+        return {}
+    return {
+        one.number: _answer(given[str(one.number)], one)
+        for one in COURSE
+        if str(one.number) in given
+    }
+
+
+def _answer(row: Any, one: Lesson) -> str:
+    said = row.get("predicted") if isinstance(row, Mapping) else None
+    return said if isinstance(said, str) and said in one.options else ""

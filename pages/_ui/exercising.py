@@ -9,6 +9,8 @@ from pages._ui import state, words
 from pages._ui.exercise_pages import FOLDER_PAGES, shown_option
 from pages._ui.state import exercise as kept
 
+REDRAWN = "What is hidden has been drawn anew for your next attempt."
+
 
 def is_here() -> bool:
     """Whether an exercise is open on this page."""
@@ -101,7 +103,9 @@ def _verdict(exercise: Exercise) -> None:
         st.info("That part is solved. Go on with the next.")
         return
     said = (verdict.near_miss, verdict.distance)
-    st.info(" ".join(["Not yet.", *(words.prose(text) for text in said if text)]))
+    again = REDRAWN if kept.is_redrawn(exercise) else ""
+    found = [words.prose(text) for text in (*said, again) if text]
+    st.info(" ".join(["Not yet.", *found]))
 
 
 def _buttons(exercise: Exercise) -> None:
@@ -139,6 +143,7 @@ def all_exercises() -> None:
         for exercise in found:
             _row(exercise)
     _hand_in()
+    _clear()
 
 
 def _hand_in() -> None:
@@ -162,6 +167,21 @@ def _hand_in() -> None:
         )
 
 
+def _clear() -> None:
+    """For a computer that others use: what the browser keeps can be cleared."""
+    st.caption(
+        "This browser keeps what you predicted and solved, for when you come back. "
+        "Clear it on a computer that others use."
+    )
+    with st.popover("Clear what this browser keeps"):
+        st.markdown(
+            "Every prediction, attempt and solved exercise is forgotten. Download your "
+            "progress first if you want to hand it in. The random word by which this "
+            "browser votes once stays."
+        )
+        st.button("Clear it all", type="primary", on_click=state.clear_progress)
+
+
 def _row(exercise: Exercise) -> None:
     attempt = kept.attempt_of(exercise)
     status = "solved" if attempt.is_solved else "begun" if attempt.n_checks else ""
@@ -177,5 +197,9 @@ def open_button(exercise: Exercise, label: str, where: str) -> None:
     """Draw a button that opens an exercise on its page."""
     about = f"{exercise.title}, {exercise.minutes} minutes"
     if st.button(label, key=f"{where}_{exercise.id}", help=about):
+        why_not = state.refusal(exercise)
+        if why_not:
+            st.error(words.plain(why_not))
+            return
         kept.open_exercise(exercise)
         st.switch_page(FOLDER_PAGES[exercise.page])

@@ -7,6 +7,7 @@ depends on Streamlit.
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from occsim.exercises import CONTROLS, Exercise
 from pages._ui.columns import Column
@@ -22,8 +23,10 @@ OUTPUTS = {
 OTHERS = {
     "drawing": "Drawing",
     "model": "Cell model: log-odds, or gmapping's counts",
+    "laps": "Laps of the same tour",
     "lens_cell_px": "Cell size of the lens",
     "sensor_errors": "Sensor's beams and errors",
+    "log_maps": "Maps of a robot's log: one, or gmapping's beside it",
     "presets": "Conditions, and examples of several maps",
     "transport": "Transport of the replay",
 }
@@ -40,10 +43,14 @@ OF_ONE_MAP = (
 )
 OF_SEVERAL = (
     *("prior_drawing", "p_wall", "p_space", "rule", "thickness_px", "behind_hit"),
-    *("cell_px", "model", "overlay", "transport", "presets", "columns"),
+    *("cell_px", "model", "laps", "overlay", "transport", "presets", "columns"),
     *OUTPUTS,
 )
-"""What the lens has, and the player with one map and with several."""
+OF_LOG = (
+    *("p_wall", "p_space", "rule", "model", "overlay", "transport", "columns"),
+    "ladder",
+)
+"""What the lens has, and the player with one map, with several, and with a log."""
 _MORE = ("range_px", "fov_deg", "wall_share", "truth_share")
 _ERRORS = (
     *("prior_drawing", "thickness_px", "shift_x_px", "shift_y_px", "rotation_deg"),
@@ -73,6 +80,10 @@ OF_PAGES: Mapping[str, tuple[str, ...]] = {
         *("wall_share", "truth_share", "min_recall"),
     ),
     "pages/2_Your_building.py": ("drawing",),
+    "pages/4_Robot_data.py": (
+        *("drawing", "log_cell_m", "usable_range_m", "log_maps", "log_behind_hit"),
+        *("log_clear_no_hit", "log_max_range_m", *OF_LOG),
+    ),
 }
 """What each page has, for a teacher to hide and lock."""
 NAMES: Mapping[str, str] = {
@@ -104,6 +115,8 @@ class Limits:
         The values of all that is held.
     drawing : str
         The drawing, if that is held; empty where it may be chosen.
+    together : tuple of str
+        Settings that always have the same value, that of the first.
     by : str
         Who set the limits, as the student reads it; empty if there are none.
     """
@@ -112,6 +125,7 @@ class Limits:
     locked: frozenset[str] = frozenset()
     settings: Settings = Settings()
     drawing: str = ""
+    together: tuple[str, ...] = ()
     by: str = ""
 
     @property
@@ -126,14 +140,22 @@ class Limits:
 
     def kept(self, settings: Settings) -> Settings:
         """Return settings in which all that is held has its value."""
-        if not self.held:
+        if not self.held and not self.together:
             return settings
         names = self.held & (TABLE.keys() - {"columns"})
         values = {name: getattr(self.settings, name) for name in names}
-        return replace(settings, **values, columns=self._columns(settings.columns))
+        columns = self.columns_kept(settings.columns, self.settings.columns)
+        kept = replace(settings, **values, columns=columns)
+        return replace(kept, **self._level(kept))
 
-    def _columns(self, columns: tuple[Column, ...]) -> tuple[Column, ...]:
-        own = self.settings.columns
+    def _level(self, holder: Settings | Column) -> dict[str, Any]:
+        """What is to be the same, as the first of it is."""
+        return {name: getattr(holder, self.together[0]) for name in self.together}
+
+    def columns_kept(
+        self, columns: tuple[Column, ...], own: tuple[Column, ...]
+    ) -> tuple[Column, ...]:
+        """Return maps in which all that is held is as in those of one's own."""
         if "columns" in self.held and len(columns) != len(own):
             return own
         return tuple(
@@ -147,7 +169,8 @@ class Limits:
             for one in fields(Column)
             if self.held.intersection(OF_FIELDS.get(one.name, (one.name,)))
         }
-        return replace(column, **values)
+        kept = replace(column, **values)
+        return replace(kept, **self._level(kept))
 
 
 PRESETS_TELL = frozenset(name for preset in PRESETS.values() for name in preset)
@@ -166,7 +189,8 @@ def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
     locked = _ours(exercise.lock)
     others = _OF_THE_MAP - shown - locked if exercise.show else frozenset()
     hidden = others | told_by(exercise)
-    if not hidden | locked:
+    together = tuple(OF_EXERCISES.get(name, name) for name in exercise.together)
+    if not hidden | locked and not together:
         return NONE
     is_held = "drawing" in hidden | locked
     return Limits(
@@ -174,6 +198,7 @@ def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
         locked=locked,
         settings=settings,
         drawing=exercise.setup.drawing if is_held else "",
+        together=together,
         by=f"exercise {exercise.number}",
     )
 
@@ -189,7 +214,7 @@ def _ours(names: Iterable[str]) -> frozenset[str]:
 
 _OF_THE_MAP = (
     _ours(CONTROLS)
-    .union(*(("presets", "columns"), *GROUPS.values()))
+    .union(*(("presets", "columns", "model", "laps"), *GROUPS.values()))
     .difference(OUTPUTS)
 )
 """What an exercise hides where it lists what it shows."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from occsim.building import Building
 from pages._ui import compute
-from pages._ui.choices import CellModel
+from pages._ui.choices import CellModel, Laps
 from pages._ui.columns import LOG_COLUMNS, Column
 from pages._ui.components.player import Part, Replay
 from pages._ui.robot_data import files
@@ -127,4 +127,5 @@ def replay(
 
 def fixed(settings: Settings) -> Mapping[str, object]:
     """What the page chooses of every map of a log."""
-    return {"behind_hit": settings.log_behind_hit.value, "cell_px": 1}
+    behind_hit = settings.log_behind_hit.value
+    return {"behind_hit": behind_hit, "cell_px": 1, "laps": Laps.ONE.value}

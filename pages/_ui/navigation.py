@@ -106,17 +106,22 @@ PAGES = LEARNING + OWN_DATA + CLASSROOM
 def draw(path: str) -> None:
     """Draw the links to all pages; the page that one is on is marked."""
     # A page that is run by itself, as a test may do, has no other pages to go to.
-    with (
-        contextlib.suppress(StreamlitPageNotFoundError),
-        st.container(horizontal=True, key="lessons"),
-    ):
+    with contextlib.suppress(StreamlitPageNotFoundError):
+        if not state.projector():
+            _pages(path)
+            return
+        with st.container(horizontal=True, key="navigation"):
+            _lesson_keys()
+            _pages(path)
+
+
+def _pages(path: str) -> None:
+    with st.container(horizontal=True, key="lessons"):
         for group in GROUPS:
             if group is not GROUPS[0]:
                 st.html('<span class="occsim-group"></span>', width="content")
             for item in group:
                 _link(item, is_current=item.path == path)
-        if state.projector():
-            _lesson_keys()
 
 
 def _link(item: Page, is_current: bool) -> None:

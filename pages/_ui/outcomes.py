@@ -160,7 +160,32 @@ def whose_drawing() -> Outcome:
     )
     gain = own[SUBTRACT] - wrong[SUBTRACT]
     answer = "alike" if abs(gain) < 0.01 else "own" if gain > 0 else "other"
+    asks = _asked_by()
+    if asks:
+        text = f"{WHOSE[answer]} {asks}"
     return Outcome(f"{text}{_vote()}", answer)
+
+
+LINE_UP = "line_up"
+"""The exercise that asks for the scores of this lesson."""
+WHOSE = {
+    "own": "With this building's drawing, taken off at every reading, the map is the "
+    "better one.",
+    "other": "With another building's drawing, taken off at every reading, the map is "
+    "the better one.",
+    "alike": "Taken off at every reading, both drawings give as good a map.",
+}
+
+
+def _asked_by() -> str:
+    """Who asks for the scores of this building; empty once that was attempted."""
+    asking = next(one for one in compute.exercises() if one.id == LINE_UP)
+    if state.choice() != asking.setup.drawing or state.was_tried(asking):
+        return ""
+    return (
+        f"Exercise {asking.number} asks for the scores; they stand here once it was "
+        "attempted."
+    )
 
 
 def _vote() -> str:

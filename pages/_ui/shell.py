@@ -100,6 +100,19 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 @media (max-width: 640px) {
     .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .st-key-lesson button { min-height: 2.75rem; }
+    /* Of a lesson only the question stands above its maps, all else below them: what
+       is done and what comes of it are on one screen. */
+    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
+        :has(> .st-key-lesson), .st-key-lesson, .st-key-lesson > :first-child,
+        .st-key-lesson > :first-child > *) { display: contents; }
+    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
+        .st-key-lesson > :first-child > * > *, .st-key-lesson > :last-child) {
+        flex: none; width: 100%; }
+    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
+        .st-key-lesson > :first-child > * > :last-child,
+        .st-key-lesson > :last-child) { order: 1; }
+    .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem; }
+    .st-key-exercise [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
     /* Columns stand below each other: as far apart as other blocks. */
     [data-testid="stHorizontalBlock"] { row-gap: 0.75rem; }
@@ -138,7 +151,11 @@ PROJECTOR_CSS = """
 .stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
 .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
     scrollbar-width: none; }
-.st-key-lesson_keys { flex: none; order: -1; gap: 0; flex-wrap: nowrap; }
+/* The numbers of the lessons stay while the pages beside them are swiped. */
+.st-key-navigation { flex-wrap: nowrap; gap: 0.5rem; }
+.st-key-navigation > :first-child { flex: none; }
+.st-key-navigation > :last-child { flex: 1; min-width: 0; }
+.st-key-lesson_keys { gap: 0; flex-wrap: nowrap; }
 .st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
     white-space: nowrap; }
 /* The map comes first, what is to be done and the sensor's settings below it. */
@@ -261,6 +278,7 @@ def _ending() -> None:
             unsaved=not kept,
             progress=state.progress(),
             session=state.drawn_word(),
+            cleared=state.is_cleared(),
             projector=state.projector(),
             has_button=may_be_shared,
             key="address",

@@ -100,7 +100,7 @@ def _section(step: Step) -> str:
 
 def _prediction(lesson: Lesson) -> str:
     """The question of a lesson, with a box to tick for each answer."""
-    question = _shown(lesson.predict.format(coverage="part", target="more"))
+    question = _shown(lesson.asked)
     options = "".join(
         f'<span class="option">{_shown(label)}</span>'
         for label in lesson.options.values()

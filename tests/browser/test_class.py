@@ -75,7 +75,13 @@ def test_a_vote_is_counted_and_shown_when_the_teacher_says_so(chromium, app_url)
 @pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
 @pytest.mark.parametrize(
     ("path", "more"),
-    [("Build_a_map", ""), ("Build_a_map", "&lesson=3"), ("Two_maps", "")],
+    [
+        ("Build_a_map", ""),
+        ("Build_a_map", "&lesson=3"),
+        ("Two_maps", ""),
+        ("Two_maps", "&lesson=4"),
+        ("Two_maps", "&lesson=5"),
+    ],
 )
 def test_map_and_transport_fit_a_projector(chromium, app_url, path, size, more):
     width, height = size
@@ -85,6 +91,9 @@ def test_map_and_transport_fit_a_projector(chromium, app_url, path, size, more):
     page.wait_for_timeout(1000)  # the maps take their height
     transport = page.locator(".transport").bounding_box()
     assert transport["y"] + transport["height"] <= height
+    for number in page.locator(".st-key-lesson_keys a").all():
+        box = number.bounding_box()
+        assert 0 <= box["x"] <= width - box["width"]
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     picture = page.locator("[data-pane=map] canvas").first.bounding_box()
     assert picture["width"] * (2 if path == "Build_a_map" else 3) > 0.65 * width

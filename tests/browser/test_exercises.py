@@ -4,16 +4,17 @@ import re
 
 import pytest
 
+from occsim import MappingRun, MapSettings, Prior, load_sample
 from occsim.exercises import load_exercises
+from occsim.run.laps import lap_scores
 from pages._ui.compute import EXERCISES
 
 pytestmark = pytest.mark.browser
 
 
 def test_what_was_solved_outlives_a_reload(page, app_url):
-    n = len([*EXERCISES.glob("*.toml")])
+    n = sum(not one.is_open for one in load_exercises(EXERCISES, prove=False))
     page.goto(f"{app_url}/Exercises")
-    # While the exercises are proven, the button may be drawn twice.
     page.get_by_text(f"0 of {n} solved").wait_for()
     page.locator(".st-key-open_count_a_thousand button").first.click()
     page.get_by_text("Exercise 4: Count a thousand cells").wait_for()
@@ -37,6 +38,12 @@ def test_what_was_solved_outlives_a_reload(page, app_url):
     )
     page.goto(f"{app_url}/Exercises")  # a new session of the server
     page.get_by_text(f"1 of {n} solved").wait_for()
+    page.get_by_text("Clear what this browser keeps").click()
+    page.get_by_role("button", name="Clear it all").click()
+    page.get_by_text(f"0 of {n} solved").wait_for()
+    page.wait_for_function("localStorage.getItem('occsim.progress') === null")
+    page.goto(f"{app_url}/Exercises")
+    page.get_by_text(f"0 of {n} solved").wait_for()
 
 
 def opened(page, app_url, name, path="Build_a_map"):
@@ -73,6 +80,31 @@ def test_a_locked_rule_is_seen_and_does_not_move(page, app_url):
     assert player.locator("input[name=rule][value=prior_once]").is_checked()
     assert not player.locator("[data-part=uninformative]").is_checked()
     assert player.get_by_text("Precision").first.is_visible()
+
+
+def test_one_slider_moves_both_values_of_a_control_experiment(page, app_url):
+    player = opened(page, app_url, "run_the_control")
+    moved = player.get_by_role("slider", name="p_wall")
+    moved.focus()
+    moved.press("ArrowLeft")
+    assert moved.input_value() == "0.54"
+    assert player.get_by_role("slider", name="p_space").input_value() == "0.54"
+    page.wait_for_url("**p_space=0.54**")
+
+
+def test_laps_are_set_in_the_header_of_a_map(page, app_url):
+    """Exercise 22: recall of c after one, two and three laps is what occsim says."""
+    player = opened(page, app_url, "drive_it_again", "Two_maps")
+    recall = player.locator("[data-value='looked recall']").first
+    player.get_by_role("button", name="More settings of map A").click()
+    laps = player.get_by_label("Laps of the same tour of map A")
+    sample = load_sample("c")
+    run = MappingRun(sample, MapSettings(cell_px=3, sensor=sample.sensor))
+    for n in (3, 2, 1, 3):
+        laps.select_option(str(n))
+        shown = float(recall.inner_text().split()[0])
+        assert shown == round(100 * lap_scores(run, Prior(), n).recall, 1)
+    page.wait_for_url("**columns=l3*")
 
 
 def test_an_exercise_of_the_transport_alone_can_be_played(page, app_url):

@@ -113,6 +113,30 @@ def test_the_last_row_is_one_row_on_a_telephone(phone, app_url):
     assert abs(copy.bounding_box()["y"] - reset.bounding_box()["y"]) < 10
 
 
+@pytest.mark.parametrize(
+    ("path", "lesson", "root", "pictures"),
+    [
+        ("What_the_sensor_says", 1, ".lens", ".stage"),
+        ("Build_a_map", 3, ".player", "[data-pane=map] canvas, [data-do=play]"),
+        ("Two_maps", 4, ".player", "[data-pane=map] canvas, [data-do=play]"),
+        ("Two_maps", 5, ".player", "[data-pane=map] canvas, [data-do=play]"),
+    ],
+)
+def test_a_lesson_s_question_and_its_maps_are_on_one_screen_of_a_telephone(
+    phone, app_url, path, lesson, root, pictures
+):
+    phone.goto(f"{app_url}/{path}?lesson={lesson}")
+    player = phone.locator(f"{root}[data-ready='1']")
+    player.wait_for()
+    phone.wait_for_timeout(500)  # the maps take their height
+    question = phone.locator(f".st-key-predict_{lesson}")
+    assert is_whole_on_screen(question)
+    maps = player.locator(pictures).all()
+    assert all(is_whole_on_screen(one) for one in maps)
+    see = phone.get_by_text("See.", exact=True)
+    assert see.bounding_box()["y"] > maps[0].bounding_box()["y"]
+
+
 def test_two_maps_and_their_headers_fit_a_telephone(phone, app_url):
     phone.goto(f"{app_url}/Two_maps")
     phone.locator(".player[data-ready='1']").wait_for()

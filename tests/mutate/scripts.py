@@ -46,8 +46,8 @@ _ROWS = (
     ),
     (
         "player/model.js",
-        "(column.once ? 1 : 1 - k)",
-        "(column.once ? 1 : -k)",
+        "(column.once ? 1 : 1 - laps * k)",
+        "(column.once ? 1 : -laps * k)",
         MODEL,
         "prior subtracted once too often",
     ),

@@ -15,6 +15,7 @@ const SETTING = {
   behind_hit: "occupied",
   cell_px: 3,
   model: "log_odds",
+  laps: "1",
 };
 const option = (value, label) => ({ value, label });
 const WORDS = {
@@ -25,6 +26,7 @@ const WORDS = {
   behind_hit: [option("occupied", "occupied")],
   cell_px: [option("3", "3 px cells")],
   model: [option("log_odds", "log-odds"), option("hits_visits", "counts")],
+  laps: [option("1", "1 lap"), option("3", "3 laps")],
 };
 const withChanges = (changes) => ({ ...SETTING, ...changes });
 
@@ -32,6 +34,23 @@ test("a word differs where two maps have other values of it", () => {
   const settings = [SETTING, withChanges({ rule: "subtract_prior", cell_px: 1 })];
   const differing = player.WORDS.filter((word) => player.differs(settings, word));
   assert.deepEqual(differing, ["rule", "cell_px"]);
+});
+
+test("laps are told where there are more than one, or where they differ", () => {
+  const laps = (n) => withChanges({ laps: n });
+  assert.ok(!player.agreement(WORDS, [laps("1"), laps("1")]).includes("lap"));
+  assert.match(player.agreement(WORDS, [laps("3"), laps("3")]), /3 laps\.$/);
+  assert.ok(player.differs([laps("1"), laps("3")], "laps"));
+  // Counts of beams are the same after each lap, as a share.
+  const counts = withChanges({ model: "hits_visits", laps: "3" });
+  assert.ok(!player.differs([laps("1"), counts], "laps"));
+});
+
+test("a slider moves what moves together with it", () => {
+  const moved = (together) => player.movedTo({ header: { together } }, "p_wall", 0.3);
+  assert.deepEqual(moved([]), { p_wall: 0.3 });
+  assert.deepEqual(moved(["p_wall", "p_space"]), { p_wall: 0.3, p_space: 0.3 });
+  assert.deepEqual(moved(["p_space", "rule"]), { p_wall: 0.3 });
 });
 
 test("a map of counts has no drawing, pair or rule to differ in", () => {

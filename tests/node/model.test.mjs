@@ -138,6 +138,28 @@ test("a cell's history adds up to its log-odds", () => {
   }
 });
 
+test("after some laps a map is that of the same readings, repeated", () => {
+  const { replay, readings, isWall, truth } = randomReplay(3);
+  const thrice = replayOf(5, 6, 3, [...readings, ...readings, ...readings], { isWall, truth });
+  for (const state of STATES) {
+    const laps = modelOf(replay, { ...state, laps: "3" });
+    const all = modelOf(thrice, state);
+    player.seek(laps.log, replay.nReadings);
+    player.seek(all.log, thrice.nReadings);
+    for (let c = 0; c < replay.nCells; c++) {
+      close(player.logOddsAt(laps, c), player.logOddsAt(all, c), `cell ${c}`);
+      const { prior, terms } = player.historyOf(laps, c);
+      const total = terms.reduce((sum, { added }) => sum + added, prior);
+      close(total, player.logOddsAt(laps, c), `ladder of cell ${c}`);
+    }
+    const [of, end] = [player.scoreCurves(laps).looked, player.scoreCurves(all).looked];
+    assert.deepEqual(
+      of.counts.map((curve) => curve[replay.nReadings]),
+      end.counts.map((curve) => curve[thrice.nReadings]),
+    );
+  }
+});
+
 test("one log serves all columns on it, each with its own prior", () => {
   const world = randomReplay(5);
   const log = player.newLog(world.replay);

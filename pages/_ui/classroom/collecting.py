@@ -9,7 +9,7 @@ from occsim.exercises import Exercise
 from pages._ui import shell, words
 from pages._ui.classroom import handed_in, own_files
 from pages._ui.classroom.handed_in import MAX_FILES, Student
-from pages._ui.exercise_pages import shown_option
+from pages._ui.classroom.questions import counts, questions
 
 MAX_FILE_MB = 1
 
@@ -40,7 +40,7 @@ def section() -> None:
         found = handed_in.begun(students, known)
         _table(students, found)
         _say_unknown(handed_in.n_unknown(students, known))
-        _predictions(students, found)
+        _predictions(students, known)
 
 
 def _say_unknown(n: int) -> None:
@@ -86,18 +86,19 @@ def _table(students: list[Student], found: Sequence[Exercise]) -> None:
     )
 
 
-def _predictions(students: list[Student], found: Sequence[Exercise]) -> None:
-    asked = [one for one in found if one.prediction is not None]
+def _predictions(students: list[Student], known: Sequence[Exercise]) -> None:
+    files = [one.progress for one in students]
+    asked = {
+        one.title: one
+        for one in questions(known)
+        if any(one.answer(file) is not None for file in files)
+    }
     if not asked:
         return
     st.header("What was predicted", anchor=False)
-    titles = handed_in.column_names(asked)
-    chosen = st.selectbox(
-        "Exercise", list(titles), format_func=titles.__getitem__, width=480
-    )
-    exercise = next(one for one in asked if one.id == chosen)
-    st.markdown(words.prose(exercise.prediction.text.strip()))
-    counts = handed_in.predictions(students, exercise)
-    for option, count in counts.items():
-        label = words.prose(shown_option(option))
-        st.progress(count / max(1, sum(counts.values())), text=f"{label}: {count}")
+    chosen = asked[st.selectbox("Question", list(asked), width=480)]
+    st.markdown(words.prose(chosen.text))
+    found = counts(chosen, files)
+    for option, count in found.items():
+        label = words.prose(chosen.options[option])
+        st.progress(count / max(1, sum(found.values())), text=f"{label}: {count}")

@@ -108,18 +108,6 @@ def n_unknown(students: Sequence[Student], exercises: Sequence[Exercise]) -> int
     return len(begun_ids - {one.id for one in exercises})
 
 
-def predictions(students: Sequence[Student], exercise: Exercise) -> dict[str, int]:
-    """How often each prediction was made; those that nobody made as well."""
-    asked = exercise.prediction
-    options = asked.options if asked else ()
-    found = Counter(
-        student.progress.attempts[exercise.id].first
-        for student in students
-        if exercise.id in student.progress.attempts
-    )
-    return {option: found[option] for option in options}
-
-
 COLUMNS = (
     *("student", "exercise", "status", "predicted", "checks", "hints"),
     *("numbers", "state", "time", "version"),

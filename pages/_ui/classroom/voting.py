@@ -4,9 +4,10 @@ import streamlit as st
 
 from occsim import OccsimError
 from pages._ui import shell, state, words
-from pages._ui.classroom import handed_in, own_files
+from pages._ui.classroom import own_files
 from pages._ui.classroom.kept import typed
 from pages._ui.classroom.preparing import link_to
+from pages._ui.classroom.questions import questions
 from pages._ui.classroom.rooms import (
     MAX_OPTION,
     MAX_OPTIONS,
@@ -15,8 +16,6 @@ from pages._ui.classroom.rooms import (
     ROOMS,
     Seen,
 )
-from pages._ui.components.player.texts import STORY
-from pages._ui.exercise_pages import shown_option
 from pages._ui.qr import qr_html
 
 EVERY = "2s"
@@ -56,20 +55,8 @@ def student(code: str) -> None:
 # --- The teacher ----------------------------------------------------------------------
 
 
-def _questions() -> dict[str, tuple[str, tuple[str, ...]]]:
-    """The questions that are ready to ask: title, question, options."""
-    story = STORY["answers"]
-    ready = {"Home: the three maps": (STORY["question"], tuple(story.values()))}
-    for one in own_files.known():
-        asked = one.prediction
-        if asked is not None:
-            options = tuple(shown_option(option) for option in asked.options)
-            ready[f"Exercise {handed_in.title(one)}"] = (asked.text, options)
-    return ready
-
-
 def _open() -> None:
-    ready = _questions()
+    ready = {one.title: one for one in questions(own_files.known())}
     title = st.selectbox(
         "Question",
         [*ready, OWN_QUESTION],
@@ -77,8 +64,8 @@ def _open() -> None:
         **state.bind_view("vote_question", next(iter(ready))),
     )
     if title in ready:
-        question, options = ready[title]
-        st.markdown(f"**{words.prose(question.strip())}**")
+        question, options = ready[title].text, tuple(ready[title].options.values())
+        st.markdown(f"**{words.prose(question)}**")
         st.markdown("\n".join(f"- {words.prose(option)}" for option in options))
     else:
         question, options = _own_question()

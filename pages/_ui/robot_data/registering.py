@@ -8,7 +8,7 @@ from functools import partial
 import streamlit as st
 
 from occsim import Corrections, Registration
-from pages._ui import controls, logs, shell, state, uploads, words
+from pages._ui import controls, limits, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel, PriorDrawing
 from pages._ui.columns import DRAWN_COLUMNS, Column
 from pages._ui.components.board import BoardDocument, BoardMode
@@ -295,6 +295,7 @@ def _map(log: LogFile, made: PlayedLog) -> None:
         key=key,
         held=state.parts_held(key),
         fixed=logs.fixed(settings),
+        limits=state.limits_of(limits.OF_LOG),
     )
     _bits(_key(log), made, walls, columns)
 

@@ -9,7 +9,7 @@ import streamlit as st
 from occsim import OccsimError, RobotFileError
 from occsim.io import bags
 from occsim.io.timed import TimedScans, is_timed_scans
-from pages._ui import controls, logs, shell, state, uploads, words
+from pages._ui import controls, limits, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel
 from pages._ui.columns import LOG_COLUMNS, Column
 from pages._ui.components.player import map_player
@@ -59,6 +59,7 @@ def show() -> None:
         key=key,
         held=state.parts_held(key),
         fixed=logs.fixed(settings),
+        limits=state.limits_of(limits.OF_LOG),
     )
     downloads.popover(made)
     _words()
@@ -78,33 +79,39 @@ def _controls() -> None:
             st.button("Back to the simulated log", on_click=_forget)
         for name in ("log_cell_m", "usable_range_m"):
             controls.slider(name, width=controls.NARROW_PX)
-        st.segmented_control(
-            "Maps",
-            list(MAPS),
-            required=True,
-            help="gmapping, a mapper that many robots use, counts in each cell how "
-            "many beams end there, of those that end there or pass. More than a "
-            "quarter, and the cell is published as occupied.",
-            **state.bind_view(SHOWN, ONE),
-        )
+        if controls.shown("log_maps"):
+            _choose_maps()
         with st.popover("More settings"):
             controls.radio("log_behind_hit")
             controls.toggle("log_clear_no_hit")
             controls.slider("log_max_range_m")
-        with st.popover("Upload a log"):
-            uploads.uploader(
-                "Log of scans",
-                f"own_log_{state.view(TAKEN, 0)}",
-                _use_log,
-                ABOUT,
-            )
-            st.caption(ABOUT)
-            uploads.uploader(
-                "Trajectory (TUM), before timed scans",
-                f"own_poses_{state.view(TAKEN, 0)}",
-                _keep_trajectory,
-                "Lines of t x y z qx qy qz qw. Each scan is placed by its time.",
-            )
+        if not state.limits().drawing:
+            with st.popover("Upload a log"):
+                _uploads()
+
+
+def _choose_maps() -> None:
+    st.segmented_control(
+        "Maps",
+        list(MAPS),
+        required=True,
+        help="gmapping, a mapper that many robots use, counts in each cell how "
+        "many beams end there, of those that end there or pass. More than a "
+        "quarter, and the cell is published as occupied.",
+        disabled="log_maps" in state.limits().held,
+        **state.bind_view(SHOWN, ONE),
+    )
+
+
+def _uploads() -> None:
+    uploads.uploader("Log of scans", f"own_log_{state.view(TAKEN, 0)}", _use_log, ABOUT)
+    st.caption(ABOUT)
+    uploads.uploader(
+        "Trajectory (TUM), before timed scans",
+        f"own_poses_{state.view(TAKEN, 0)}",
+        _keep_trajectory,
+        "Lines of t x y z qx qy qz qw. Each scan is placed by its time.",
+    )
 
 
 def _columns() -> tuple[Column, ...]:

@@ -51,7 +51,13 @@ from pages._ui.state.edits import (
     set_range_to_door,
     undo,
 )
-from pages._ui.state.exercise import progress, take_kept
+from pages._ui.state.exercise import (
+    clear_progress,
+    is_cleared,
+    progress,
+    take_kept,
+    was_tried,
+)
 from pages._ui.state.held import (
     active,
     class_now,
@@ -60,6 +66,7 @@ from pages._ui.state.held import (
     limits_of,
     not_drawn,
     note_hidden,
+    refusal,
 )
 from pages._ui.state.lens import LENS_KEY, LENS_PATH, lens_document, take_from_lens
 from pages._ui.state.lesson import (
@@ -149,6 +156,8 @@ __all__ = [
     "can_redo",
     "can_undo",
     "change",
+    "clear_progress",
+    "is_cleared",
     "choice",
     "choices",
     "choose",
@@ -187,6 +196,7 @@ __all__ = [
     "progress",
     "query",
     "redo",
+    "refusal",
     "reset_all",
     "set_own",
     "set_range_to_door",
@@ -199,5 +209,6 @@ __all__ = [
     "value",
     "view",
     "visit",
+    "was_tried",
     "work_key",
 ]

@@ -9,7 +9,7 @@ import streamlit as st
 
 from occsim import load_sample, sample_names
 from occsim.building import Building
-from pages._ui import compute
+from pages._ui import compute, openings
 from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.classroom.kept import CLASSES, typed
 from pages._ui.classroom.prepared import Prepared
@@ -22,7 +22,7 @@ from pages._ui.state.classes import (
     room_in_link,
     with_class,
 )
-from pages._ui.state.held import base, keep_settings, limits
+from pages._ui.state.held import active, base, keep_settings, limits
 from pages._ui.state.lens import forget_lens, lens_in_link, open_lens, reset_lens
 from pages._ui.state.opening import OWN, defaults
 from pages._ui.state.replay import (
@@ -45,6 +45,8 @@ that the prior errs visibly and the Pareto front has several points."""
 OPENING_OF = {TWO_MAPS_PATH: "c"}
 """Pages that open with another drawing, if none was chosen."""
 EXERCISE_ID = re.compile(r"[a-z0-9_]{1,40}")
+BARE = {"exercise", "projector"}
+"""What a link to an exercise may say and still open it from its beginning."""
 GONE = (
     "The building of this link is no longer on this server: the server was "
     "restarted, or the building has expired. Open your project file on the page "
@@ -79,7 +81,10 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state = st.session_state
     notices = enter_class(query)
     enter_room(query.get("room", ""), query.get("key", ""))
-    query = with_class(query)
+    given = with_class(query)
+    asked = given.get("exercise", "")
+    state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
+    query = {**_exercise_texts(query), **given}
     state.projector = query.get("projector") == "1"
     state.own, state.work = None, None
     state.path = path
@@ -96,8 +101,6 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
         wrong.append("drawing")
         asked = first
     state.choice = OWN if state.own and "drawing" not in query else asked
-    asked = query.get("exercise", "")
-    state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
     held = limits().drawing
     state.choice = held or state.choice
     state.chosen = state.choice == OWN or "drawing" in query or bool(held)
@@ -118,6 +121,13 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
             "are used instead."
         )
     state.link_notice = path, " ".join(notices)
+
+
+def _exercise_texts(query: Mapping[str, str]) -> dict[str, str]:
+    """What a link opens that names an exercise and says nothing of the state."""
+    exercise = active()
+    is_bare = set(query) <= BARE
+    return openings.texts_of_exercise(exercise) if exercise and is_bare else {}
 
 
 def path() -> str:

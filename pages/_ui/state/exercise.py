@@ -41,7 +41,14 @@ from pages._ui.state.chosen import (
     state_texts,
 )
 from pages._ui.state.classes import take_voter
-from pages._ui.state.held import class_now, close_exercise, keep_settings, limits
+from pages._ui.state.held import (
+    class_now,
+    close_exercise,
+    draw_again,
+    keep_settings,
+    limits,
+    opened,
+)
 from pages._ui.state.lens import set_lens, take_from_lens
 from pages._ui.state.lesson import lessons_row, rows, take_lessons
 from pages._ui.state.replay import (
@@ -49,8 +56,13 @@ from pages._ui.state.replay import (
     TWO_MAPS_KEY,
     forget_player,
     put_player,
+    restart_home,
     take_from_player,
 )
+from pages._ui.state.widgets import set_view
+
+TRIES = 2
+"""Attempts at what was drawn once: with more, trying every answer would find it."""
 
 
 def attempts() -> dict[str, Attempt]:
@@ -69,6 +81,11 @@ def keep_attempt(exercise: Exercise, **changes: Any) -> None:
     st.session_state.attempts = attempts() | {exercise.id: made}
 
 
+def was_tried(exercise: Exercise) -> bool:
+    """Whether an exercise was attempted."""
+    return attempt_of(exercise).n_checks > 0
+
+
 def exercise_id() -> str | None:
     """The id of the exercise that is open."""
     return st.session_state.get("exercise")
@@ -84,7 +101,7 @@ def leave_exercise() -> None:
 
 def open_exercise(exercise: Exercise) -> None:
     """Set everything as an exercise opens; settings it does not name are defaults."""
-    state = st.session_state
+    state, exercise = st.session_state, opened(exercise)
     state.exercise = exercise.id
     choose(exercise.setup.drawing)
     keep_settings(openings.of_exercise(exercise))
@@ -199,6 +216,18 @@ def check(exercise: Exercise) -> None:
         n_checks=attempt.n_checks + 1,
         is_solved=attempt.is_solved or (verdict.is_solved and attempt.stage == last),
     )
+    if is_redrawn(exercise):
+        draw_again(exercise)
+        keep_attempt(exercise, moved={}, seen=())
+        keep_settings(st.session_state.settings)  # under the limits that hold now
+        forget_player()
+
+
+def is_redrawn(exercise: Exercise) -> bool:
+    """Whether what the exercise draws is drawn anew for the attempt that comes."""
+    attempt = attempt_of(exercise)
+    counts = exercise.draw is not None and not attempt.is_solved
+    return counts and attempt.n_checks > 0 and attempt.n_checks % TRIES == 0
 
 
 def _tried(exercise: Exercise, state: ExerciseState) -> Tried:
@@ -224,6 +253,20 @@ def _now() -> str:
 def progress() -> str:
     """The progress as a text; empty where nothing was done."""
     return progress_text() if attempts() or rows() else ""
+
+
+def is_cleared() -> bool:
+    """Whether the browser is to forget what it keeps."""
+    return st.session_state.get("cleared", False)
+
+
+def clear_progress() -> None:
+    """Forget what was predicted and tried, here and in the browser."""
+    state = st.session_state
+    state.attempts, state.lessons, state.draws = {}, {}, {}
+    state.cleared = True
+    set_view("hand_in_name", "")
+    restart_home()  # its question is answered in it
 
 
 def take_kept() -> None:

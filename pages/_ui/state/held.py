@@ -4,12 +4,14 @@ The settings are stored here alone, so that a value that is held is put back wha
 set it: a widget, a component, a link, or an undo.
 """
 
+import random
+import secrets
 from collections.abc import Iterable, Mapping
 
 import streamlit as st
 
 from occsim import sample_names
-from occsim.exercises import Exercise
+from occsim.exercises import Exercise, with_draw
 from pages._ui import compute, openings
 from pages._ui import limits as rules
 from pages._ui.classroom.prepared import Prepared
@@ -31,7 +33,42 @@ def active() -> Exercise | None:
     wanted = st.session_state.get("exercise")
     if wanted is None:
         return None
-    return next((one for one in exercises() if one.id == wanted), None)
+    found = next((one for one in exercises() if one.id == wanted), None)
+    if found is None or refusal(found):
+        return None
+    return opened(found)
+
+
+def refusal(exercise: Exercise) -> str:
+    """Why an exercise cannot be opened; empty where it is proven."""
+    # Those of a class were proven when they were read.
+    is_ours = exercise in compute.exercises()
+    return compute.refusal(exercise.number) if is_ours else ""
+
+
+# --- What an exercise draws by lot ----------------------------------------------------
+
+
+def opened(exercise: Exercise) -> Exercise:
+    """The exercise with what this session has drawn for it."""
+    state = st.session_state
+    seed = state.setdefault("seed", secrets.token_hex(8))
+    return drawn(exercise, seed, state.get("draws", {}).get(exercise.id, 0))
+
+
+def drawn(exercise: Exercise, seed: str, times: int) -> Exercise:
+    """The exercise with what a seed draws for it, having drawn some times before."""
+    if exercise.draw is None:
+        return exercise
+    lot = random.Random(f"{seed} {exercise.id} {times}")
+    return with_draw(exercise, lot.choice(exercise.draw.values))
+
+
+def draw_again(exercise: Exercise) -> None:
+    """Draw anew what an exercise draws; it may come out the same."""
+    draws = st.session_state.get("draws", {})
+    times = draws.get(exercise.id, 0) + 1
+    st.session_state.draws = draws | {exercise.id: times}
 
 
 def class_now() -> Prepared | None:

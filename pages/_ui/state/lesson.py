@@ -1,13 +1,11 @@
 """The lesson that is open, the lessons that were visited, and what was predicted."""
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import streamlit as st
 
 from pages._ui.components.lens.document import OPENING
-from pages._ui.course import COURSE, Lesson, lesson_in
+from pages._ui.course import Lesson, lesson_in, lessons_of
 from pages._ui.settings import with_changes
 from pages._ui.state.chosen import choice, choose, renew_widgets, settings
 from pages._ui.state.held import close_exercise, keep_settings
@@ -23,7 +21,7 @@ from pages._ui.state.replay import (
 
 PLAYER_PATHS = ("pages/1_Build_a_map.py", TWO_MAPS_PATH)
 """Pages whose maps start before the first reading in a lesson."""
-ALONE = {"lesson", "teacher", "class", "plan"}
+ALONE = {"lesson", "teacher", "class", "plan", "projector"}
 """What a link to a lesson may say and still open it from its beginning."""
 
 
@@ -129,19 +127,3 @@ def take_lessons(given: object) -> None:
     """Add the lessons of a progress; what this session did already stays."""
     mine = {number: answer for number, answer in rows().items() if answer}
     st.session_state.lessons = rows() | lessons_of(given) | mine
-
-
-def lessons_of(given: object) -> dict[int, str]:
-    """Return the lessons of a progress; what cannot be read is left out."""
-    if not isinstance(given, Mapping):
-        return {}
-    return {
-        one.number: _answer(given[str(one.number)], one)
-        for one in COURSE
-        if str(one.number) in given
-    }
-
-
-def _answer(row: Any, one: Lesson) -> str:
-    said = row.get("predicted") if isinstance(row, Mapping) else None
-    return said if isinstance(said, str) and said in one.options else ""

@@ -85,12 +85,25 @@ def take_from_player(key: str) -> PlayerDocument:
     state = st.session_state
     if key == HOME_KEY:
         document = replace(document, columns=_home_columns(document))
-    elif key not in BY_THEMSELVES:
-        if "transport" in limits().held:
-            document = replace(document, step=player_document(key).step)
+    else:
+        document = _with_held(document, player_document(key))
+    if key not in BY_THEMSELVES:
         keep_settings(with_changes(state.settings, _to_settings(key, document)))
     state.played = state.played | {key: document}
     return document
+
+
+def _with_held(document: PlayerDocument, imposed: PlayerDocument) -> PlayerDocument:
+    """What was chosen in a player, but for what is held: that is as it was imposed."""
+    found = limits()
+    names = {"transport": "step", "overlay": "overlay"}
+    changes = {
+        field: getattr(imposed, field)
+        for control, field in names.items()
+        if control in found.held
+    }
+    columns = found.columns_kept(document.columns, imposed.columns)
+    return replace(document, **changes, columns=columns)
 
 
 def _home_columns(document: PlayerDocument) -> tuple[Column, ...]:

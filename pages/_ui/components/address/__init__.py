@@ -24,6 +24,7 @@ def address(
     has_button: bool = True,
     progress: str = "",
     session: str = "",
+    cleared: bool = False,
     projector: bool = False,
     key: str,
 ) -> None:
@@ -44,6 +45,8 @@ def address(
         as "kept", with the lot by which it votes.
     session : str
         A word that this session drew; empty where the browser is to keep nothing.
+    cleared : bool
+        Whether it is to forget what it kept before; what is done since, it keeps.
     projector : bool
         Whether the keys 1 to 9 open the lessons, and space plays.
     key : str
@@ -56,6 +59,7 @@ def address(
         "hasButton": has_button,
         "progress": progress,
         "session": session,
+        "cleared": cleared,
         "projector": projector,
     }
     component(COMPONENT, FOLDER, SCRIPTS)(

@@ -5,7 +5,7 @@ const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
   const { data, parentElement, setStateValue } = component;
-  const { query, note, unsaved, hasButton, progress, session, projector } = JSON.parse(data);
+  const { query, note, unsaved, hasButton, progress, cleared, session, projector } = JSON.parse(data);
   const root = parentElement.querySelector(".address");
   const said = root.querySelector(".said");
   root.hidden = !hasButton;
@@ -13,7 +13,7 @@ export default function (component) {
   heedLeaving(unsaved);
   heedConnection();
   heedKeys(projector);
-  if (session) keepProgress(progress, session, setStateValue);
+  if (session) keepProgress({ progress, cleared }, session, setStateValue);
   showCurrentPage();
   letWideScroll();
   root.querySelector("button").onclick = () => copy(said, note);
@@ -65,7 +65,7 @@ const VOTER = "occsim.voter";
 // What was done outlives a reload and the server, and a reload gives no second vote; a
 // browser may forbid storage. What this window has not seen, because its session is new or
 // another window wrote it, is sent first and comes back with what the session has.
-function keepProgress(progress, session, send) {
+function keepProgress({ progress, cleared }, session, send) {
   const isNew = window.occsimSession !== session;
   if (isNew) Object.assign(window, { occsimSession: session, occsimProgress: null });
   try {
@@ -76,6 +76,10 @@ function keepProgress(progress, session, send) {
     window.occsimProgress = kept;
     if (isUnseen || (isNew && voter !== session)) send("kept", { progress: kept ?? "", voter });
     else if (progress) localStorage.setItem(PROGRESS, (window.occsimProgress = progress));
+    else if (cleared) {
+      localStorage.removeItem(PROGRESS);
+      window.occsimProgress = null;
+    }
   } catch {
     // Nothing is kept then.
   }

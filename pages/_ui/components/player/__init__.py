@@ -195,6 +195,7 @@ def player_data(
         "digest": f"{zlib.crc32(repr((replay.base, parts, fixed)).encode()):x}",
         "hidden": sorted(limits.hidden),
         "locked": sorted(limits.locked),
+        "together": limits.together,
         "base": replay.base,
         "parts": parts,
         "document": encode_document(document),

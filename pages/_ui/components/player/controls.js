@@ -13,7 +13,7 @@ function buildControls(p, { texts, limits }) {
     const input = sliderOf(p, name).querySelector("input");
     Object.assign(input, limits[name]);
     input.addEventListener("input", () => {
-      p.state.columns[0][name] = Number(input.value);
+      Object.assign(p.state.columns[0], movedTo(p, name, Number(input.value)));
       recolour(p);
     });
     input.addEventListener("change", () => commit(p, COMMIT_DELAY));

@@ -4,7 +4,7 @@
 // The words of a header: those that always stand in it, then those that do so only where
 // the maps differ or the header is open.
 const MAIN_WORDS = ["drawing", "pair", "rule"];
-const MORE_WORDS = ["flaw", "behind_hit", "cell_px", "model"];
+const MORE_WORDS = ["flaw", "behind_hit", "cell_px", "model", "laps"];
 const WORDS_OF_COUNTS = ["model", "cell_px"]; // counts of beams take no prior
 const WORDS = [...MAIN_WORDS, ...MORE_WORDS];
 const BY_HAND = "hand";
@@ -62,7 +62,9 @@ function agreement(words, settings, seen = WORDS) {
   const said = settings.every(countsBeams) ? WORDS_OF_COUNTS : WORDS.filter((word) => word !== "model");
   const same = seen.filter((word) => said.includes(word) && isShared(word));
   const first = settings.find((setting) => !isBlank(setting)) ?? settings.find((one) => !countsBeams(one)) ?? settings[0];
-  const told = same.filter((word) => word === "drawing" || wordValue(first, word) !== "none");
+  // One lap is what everybody takes for granted.
+  const isTold = (word) => !(word === "laps" ? ["none", "1"] : ["none"]).includes(wordValue(first, word));
+  const told = same.filter((word) => word === "drawing" || isTold(word));
   const labels = told.map((word) => wordLabel(words, first, word));
   const readings = same.includes("behind_hit") && same.includes("cell_px") ? "readings" : "tour";
   return `Same building and ${readings}${labels.length ? `: ${labels.join(", ")}` : ""}.`;
@@ -101,7 +103,7 @@ function handSlider(p, i, name) {
   const input = element("input", { type: "range", "aria-label": label, "data-hand": name });
   Object.assign(input, p.header.limits[name]);
   input.addEventListener("input", () => {
-    Object.assign(p.state.columns[i], { [name]: Number(input.value), calibrated: false });
+    Object.assign(p.state.columns[i], movedTo(p, name, Number(input.value)), { calibrated: false });
     recolour(p);
   });
   input.addEventListener("change", () => commit(p, COMMIT_DELAY));

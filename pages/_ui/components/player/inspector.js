@@ -118,7 +118,7 @@ function cellFacts({ header }, column, c) {
   return [
     ...known,
     ["prior p_free", column.pFreePrior[column.isWall[c]].toFixed(3)],
-    ["readings k", String(counts[c])],
+    ["readings k", String(column.laps * counts[c])],
     ["log-odds l", signed(logOdds, 3)],
     declared,
     ["p_free", probability(pFreeOf(logOdds))],

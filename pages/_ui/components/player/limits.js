@@ -19,6 +19,12 @@ function showLimits(p) {
   root.classList.toggle("no-scores", isHidden(p, "scores"));
 }
 
+// What moving a slider sets: values that are the same move together.
+function movedTo({ header: { together } }, name, value) {
+  const names = together.includes(name) ? together : [name];
+  return Object.fromEntries(names.map((one) => [one, value]));
+}
+
 // The tab that is open: with hidden scores there is but one.
 const openTabOf = (p) => (isHidden(p, "scores") ? "cell" : p.tab);
 

@@ -2,7 +2,8 @@
 //
 // The readings' log-odds do not depend on the prior, so a map at any step follows from
 // the prior's log-odds l_0 and, per cell, the number k and the sum S of its readings:
-// l = S + l_0 (prior once) or l = S + (1 - k) l_0 (subtract prior).
+// l = S + l_0 (prior once) or l = S + (1 - k) l_0 (subtract prior). After n laps of the tour
+// each reading came n times: n S and n k stand for S and k.
 //
 // A *log* holds the readings and their sums at a step; columns share it. A *column* is
 // one map: a log, the wall cells of its prior, the prior and the update rule.
@@ -15,7 +16,7 @@ function newLog(evidence) {
 
 function newColumn(log, isWall, { decisionEps, priorScale, declared }) {
   const prior = { pFreePrior: [0.5, 0.5], logOddsPrior: [0, 0], once: true };
-  return { log, isWall, ...prior, decisionEps, priorScale, declared };
+  return { log, isWall, laps: 1, ...prior, decisionEps, priorScale, declared };
 }
 
 // Per entry, the state of its cell before it: the sum, the number and the last entry.
@@ -61,6 +62,7 @@ function setPrior(column, setting) {
   column.pFreePrior = pairOf(column, setting);
   column.logOddsPrior = column.pFreePrior.map(logit);
   column.once = setting.rule === "prior_once";
+  column.laps = Number(setting.laps ?? 1);
 }
 
 function pairOf(column, { p_wall, p_space, uninformative, calibrated }) {
@@ -102,11 +104,12 @@ function seek(log, step) {
 
 const priorOf = (column, c) => column.logOddsPrior[column.isWall[c]];
 
-// A cell's log-odds from the sum and the number of its readings.
+// A cell's log-odds from the sum and the number of its readings in one lap.
 function fused(column, c, sum, k) {
   // Counts are published as three classes: free, occupied, unknown.
   if (column.log.coded) return k === 0 ? 0 : sum < -column.decisionEps ? -column.declared : column.declared;
-  return sum + (column.once ? 1 : 1 - k) * priorOf(column, c);
+  const { laps } = column;
+  return laps * sum + (column.once ? 1 : 1 - laps * k) * priorOf(column, c);
 }
 
 const logOddsAt = (column, c) => fused(column, c, column.log.sums[c], column.log.counts[c]);
@@ -132,15 +135,16 @@ function readingOf({ indptr, nReadings }, entry) {
 }
 
 // Every reading of one cell, in order: its value, the prior subtracted with it, the term
-// that both add, and the total.
+// that both add, and the total; of all laps together.
 function historyOf(column, c) {
   const { log } = column;
   const prior = priorOf(column, c);
-  const off = column.once ? 0 : -prior;
+  const laps = log.coded ? 1 : column.laps;
+  const off = column.once ? 0 : -laps * prior;
   const terms = [];
   for (let e = log.last[c]; e >= 0; e = log.previous[e]) {
-    const said = log.logOdds[e];
-    const sum = log.before[e] + said;
+    const said = laps * log.logOdds[e];
+    const sum = log.before[e] + log.logOdds[e];
     const total = log.coded ? sum : fused(column, c, sum, log.rank[e] + 1);
     terms.push({ reading: readingOf(log, e), said, off, added: said + off, total });
   }

@@ -6,7 +6,7 @@ from enum import Enum
 from occsim import BehindHit, UpdateRule
 from occsim.prior import SOURCE_PAIR
 from pages._ui import palette
-from pages._ui.choices import CHOICES, CellModel, Flaw, Overlay, PriorDrawing
+from pages._ui.choices import CHOICES, CellModel, Flaw, Laps, Overlay, PriorDrawing
 from pages._ui.columns import MAX_COLUMNS
 from pages._ui.course import COURSE
 from pages._ui.glossary import meaning
@@ -43,6 +43,7 @@ WORD_NAMES = {
     "behind_hit": "Behind a hit",
     "cell_px": "Cell size",
     "model": "Cell model",
+    "laps": "Laps of the same tour",
 }
 RULES = {
     UpdateRule.PRIOR_ONCE: "once",
@@ -104,6 +105,10 @@ def _pair_text(p_wall: float, p_space: float, about: str) -> dict[str, str]:
     return {"value": ",".join(texts), "label": f"{', '.join(texts)} ({about})"}
 
 
+def _laps_text(laps: Laps) -> str:
+    return f"{laps.value} lap{'s' * (laps is not Laps.ONE)}"
+
+
 def header_words(
     drawings: Sequence[PriorDrawing], fixed: Mapping[str, object]
 ) -> dict[str, list[dict[str, str]]]:
@@ -132,6 +137,7 @@ def _header_words(drawings: Sequence[PriorDrawing]) -> dict[str, list[dict[str, 
         "behind_hit": [_option(one, label) for one, label in BEHIND.items()],
         "cell_px": [_option(size, f"{size} px cells") for size in CELL_SIZES_PX],
         "model": [_option(one, label) for one, label in MODELS.items()],
+        "laps": [_option(one, _laps_text(one)) for one in Laps],
     }
 
 
