@@ -261,6 +261,7 @@ def _ending() -> None:
             unsaved=not kept,
             progress=state.progress(),
             session=state.drawn_word(),
+            voter=state.voter() if state.room()[0] else "",
             projector=state.projector(),
             has_button=may_be_shared,
             key="address",

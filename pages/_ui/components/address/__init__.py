@@ -24,6 +24,7 @@ def address(
     has_button: bool = True,
     progress: str = "",
     session: str = "",
+    voter: str = "",
     projector: bool = False,
     key: str,
 ) -> None:
@@ -41,9 +42,11 @@ def address(
         Whether the button is shown.
     progress : str
         What the browser is to keep of what was done. What it kept before, it commits
-        as "kept", with the lot by which it votes.
+        as "kept", with the word by which it votes.
     session : str
         A word that this session drew; empty where the browser is to keep nothing.
+    voter : str
+        The word by which this session votes; empty where it is in no room.
     projector : bool
         Whether the keys 1 to 9 open the lessons, and space plays.
     key : str
@@ -56,6 +59,7 @@ def address(
         "hasButton": has_button,
         "progress": progress,
         "session": session,
+        "voter": voter,
         "projector": projector,
     }
     component(COMPONENT, FOLDER, SCRIPTS)(
