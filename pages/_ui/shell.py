@@ -279,6 +279,7 @@ def _ending() -> None:
             progress=state.progress(),
             session=state.drawn_word(),
             cleared=state.is_cleared(),
+            voter=state.voter() if state.room()[0] else "",
             projector=state.projector(),
             has_button=may_be_shared,
             key="address",

@@ -25,6 +25,7 @@ def address(
     progress: str = "",
     session: str = "",
     cleared: bool = False,
+    voter: str = "",
     projector: bool = False,
     key: str,
 ) -> None:
@@ -42,11 +43,13 @@ def address(
         Whether the button is shown.
     progress : str
         What the browser is to keep of what was done. What it kept before, it commits
-        as "kept", with the lot by which it votes.
+        as "kept", with the word by which it votes.
     session : str
         A word that this session drew; empty where the browser is to keep nothing.
     cleared : bool
         Whether it is to forget what it kept before; what is done since, it keeps.
+    voter : str
+        The word by which this session votes; empty where it is in no room.
     projector : bool
         Whether the keys 1 to 9 open the lessons, and space plays.
     key : str
@@ -60,6 +63,7 @@ def address(
         "progress": progress,
         "session": session,
         "cleared": cleared,
+        "voter": voter,
         "projector": projector,
     }
     component(COMPONENT, FOLDER, SCRIPTS)(

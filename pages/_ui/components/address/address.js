@@ -5,15 +5,16 @@ const leaving = (window.occsimLeaving ??= { unsaved: false, isHeard: false });
 
 export default function (component) {
   const { data, parentElement, setStateValue } = component;
-  const { query, note, unsaved, hasButton, progress, cleared, session, projector } = JSON.parse(data);
+  const given = JSON.parse(data);
+  const { query, note, unsaved, hasButton, session, projector } = given;
   const root = parentElement.querySelector(".address");
   const said = root.querySelector(".said");
   root.hidden = !hasButton;
   replaceAddress(query);
   heedLeaving(unsaved);
-  heedConnection();
+  heedConnection(session);
   heedKeys(projector);
-  if (session) keepProgress({ progress, cleared }, session, setStateValue);
+  if (session) keepProgress(given, setStateValue);
   showCurrentPage();
   letWideScroll();
   root.querySelector("button").onclick = () => copy(said, note);
@@ -65,16 +66,17 @@ const VOTER = "occsim.voter";
 // What was done outlives a reload and the server, and a reload gives no second vote; a
 // browser may forbid storage. What this window has not seen, because its session is new or
 // another window wrote it, is sent first and comes back with what the session has.
-function keepProgress({ progress, cleared }, session, send) {
-  const isNew = window.occsimSession !== session;
-  if (isNew) Object.assign(window, { occsimSession: session, occsimProgress: null });
+function keepProgress({ progress, cleared, session, voter }, send) {
+  if (isNewSession(session)) Object.assign(window, { occsimSession: session, occsimProgress: null });
+  window.occsimAwaits = false;
   try {
     const { localStorage } = window;
-    if (!localStorage.getItem(VOTER)) localStorage.setItem(VOTER, session);
-    const [kept, voter] = [PROGRESS, VOTER].map((name) => localStorage.getItem(name));
+    if (voter && !localStorage.getItem(VOTER)) localStorage.setItem(VOTER, voter);
+    const [kept, votes] = [PROGRESS, VOTER].map((name) => localStorage.getItem(name));
     const isUnseen = kept !== window.occsimProgress;
     window.occsimProgress = kept;
-    if (isUnseen || (isNew && voter !== session)) send("kept", { progress: kept ?? "", voter });
+    window.occsimAwaits = isUnseen || (voter !== "" && voter !== votes);
+    if (window.occsimAwaits) send("kept", { progress: kept ?? "", voter: votes });
     else if (progress) localStorage.setItem(PROGRESS, (window.occsimProgress = progress));
     else if (cleared) {
       localStorage.removeItem(PROGRESS);
@@ -84,6 +86,8 @@ function keepProgress({ progress, cleared }, session, send) {
     // Nothing is kept then.
   }
 }
+
+const isNewSession = (session) => window.occsimSession !== session;
 
 function heedLeaving(unsaved) {
   leaving.unsaved = unsaved;
@@ -95,8 +99,10 @@ function heedLeaving(unsaved) {
 }
 
 // Streamlit goes on showing what is old when its server is gone.
-function heedConnection() {
-  document.querySelector(".occsim-cut")?.remove();
+function heedConnection(session) {
+  // Stays while a new session begins: those runs are none of the student's.
+  const isBegun = !session || !(isNewSession(session) || window.occsimAwaits);
+  if (isBegun) document.querySelector(".occsim-cut")?.remove();
   const app = document.querySelector("[data-testid=stApp]");
   if (!app || app.occsimWatched) return;
   app.occsimWatched = new MutationObserver(() => {
