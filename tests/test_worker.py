@@ -9,13 +9,13 @@ import pytest
 from occsim import OccsimError, load_drawing
 from occsim.building import building_from_drawing
 from pages._ui import worker
-from pages._ui.worker import Worker
+from pages._ui.worker import Workers
 from tests.test_pages import png, rooms
 
 
 @pytest.fixture
 def one():
-    made = Worker()
+    made = Workers(1)
     yield made
     made.end()
 
@@ -41,9 +41,9 @@ def test_a_refusal_is_the_same_sentence_and_the_process_goes_on(one):
         with pytest.raises(type(here.value)) as there:
             one.open_drawing(drawing(), 0)
         assert str(there.value) == str(here.value)
-    process = one._process
+    process = one._all[0]._process
     one.open_drawing(drawing(), 1500)
-    assert one._process is process
+    assert one._all[0]._process is process
 
 
 def test_callers_wait_for_each_other_and_each_gets_their_own(one):
@@ -56,11 +56,11 @@ def test_callers_wait_for_each_other_and_each_gets_their_own(one):
 
 def test_a_drawing_is_opened_though_the_process_was_killed(one):
     one.open_drawing(drawing(), 1500)
-    first = one._process
+    first = one._all[0]._process
     first.kill()
     first.wait()
     assert one.open_drawing(drawing(), 1500).drawing.shape == (160, 220)
-    assert one._process is not first
+    assert one._all[0]._process is not first
 
 
 def test_a_process_that_dies_at_work_is_replaced_by_this_one(one, monkeypatch):
@@ -83,8 +83,21 @@ def test_other_threads_run_while_a_drawing_is_opened(one):
 
 def test_it_can_be_started_before_there_is_a_drawing(one):
     one.start_early()
-    process = one._process
+    process = one._all[0]._process
     one.start_early()
-    assert one._process is process
+    assert one._all[0]._process is process
     assert one.open_drawing(drawing(), 1500).title == "own plan"
-    assert one._process is process
+    assert one._all[0]._process is process
+
+
+def test_another_process_is_started_only_where_all_are_at_work():
+    two = Workers(2)
+    try:
+        for _ in range(2):
+            two.call(time.sleep, 0.0)
+        assert [each._process is None for each in two._all] == [False, True]
+        with ThreadPoolExecutor(2) as threads:
+            list(threads.map(lambda _: two.call(time.sleep, 0.5), range(2)))
+        assert [each._process is None for each in two._all] == [False, False]
+    finally:
+        two.end()

@@ -34,7 +34,7 @@ from pages._ui.choices import PriorDrawing
 from pages._ui.runs import Run
 from pages._ui.settings import Settings, with_changes
 from pages._ui.shared import shared
-from pages._ui.worker import WORKER
+from pages._ui.worker import WORKERS
 
 # Thirty students may share two cores: without this limit all simulations would run at
 # once, and each would take as long as all together.
@@ -65,17 +65,17 @@ def with_walls(building: Building) -> Building:
 
 def expect_drawings() -> None:
     """Get ready for uploads, where a page offers them."""
-    WORKER.start_early()
+    WORKERS.start_early()
 
 
 def own_building(drawing: Drawing, working_px: int) -> Building:
     """A building from an uploaded drawing; kept in the session, not cached."""
-    return WORKER.open_drawing(drawing, working_px)
+    return WORKERS.open_drawing(drawing, working_px)
 
 
 def building_of_map(ros_map: RosMap, name: str, working_px: int) -> Building:
     """A building from a robot's map; kept in the session, not cached."""
-    return WORKER.call(building_from_map, ros_map, name, working_px=working_px)
+    return WORKERS.call(building_from_map, ros_map, name, working_px=working_px)
 
 
 def anonymous(building: Building) -> Building:

@@ -19,7 +19,7 @@ from pages._ui.robot_data.played import (
 )
 from pages._ui.settings import Settings
 from pages._ui.shared import shared
-from pages._ui.worker import WORKER
+from pages._ui.worker import WORKERS
 
 PAPER = "Hits of all scans"
 
@@ -68,13 +68,13 @@ def _played(
     digest: str, given: LogOptions, _data: bytes, _trajectory: bytes | None
 ) -> PlayedLog:
     with compute.core():
-        return WORKER.call(play_log, _data, given, _trajectory)
+        return WORKERS.call(play_log, _data, given, _trajectory)
 
 
 @shared("Counting beams")
 def _counts(digest: str, given: LogOptions, _made: PlayedLog) -> bytes:
     with compute.core():
-        return WORKER.call(pack_log_counts, _made)
+        return WORKERS.call(pack_log_counts, _made)
 
 
 def picture(log: LogFile, settings: Settings) -> bytes:
@@ -98,7 +98,7 @@ def simulated(building: Building) -> LogFile:
 @shared("Driving the robot")
 def _simulated(digest: str, _building: Building) -> bytes:
     with compute.core():
-        return WORKER.call(simulated_log, _building)
+        return WORKERS.call(simulated_log, _building)
 
 
 def replay(

@@ -1,10 +1,11 @@
-"""A second process that opens uploaded files, so that sliders need not wait.
+"""Processes that open uploaded files, so that sliders need not wait.
 
 Python runs one thread at a time: half a second of wall detection and tour planning in
 this process would stop everyone's sliders, and so would a robot's log.
 `multiprocessing` would import the page of the student who asked into the new process,
-so this is a plain subprocess. It is started on first use, works on one file after
-another, and is replaced when it ends.
+so these are plain subprocesses. One is started on first use, works on one file after
+another, and is replaced when it ends. A second one, of some 90 MB, is started where the
+first is at work and there is a core for it.
 
 Only this process talks to it, through pipes: what it unpickles is its own.
 """
@@ -13,6 +14,7 @@ import atexit
 import contextlib
 import os
 import pickle
+import queue
 import subprocess
 import sys
 import threading
@@ -36,16 +38,6 @@ class Worker:
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
-
-    def open_drawing(self, drawing: Drawing, working_px: int) -> Building:
-        """Return what `building_from_drawing` does.
-
-        Raises
-        ------
-        OccsimError
-            Where the drawing is refused.
-        """
-        return self.call(building_from_drawing, drawing, working_px=working_px)
 
     def call(self, function: Callable[..., T], *args: object, **kwargs: object) -> T:
         """Return what a function of a module does, which must not import Streamlit.
@@ -112,8 +104,46 @@ class Worker:
             process.wait()
 
 
-WORKER = Worker()
-atexit.register(WORKER.end)
+class Workers:
+    """Some processes; a file goes to one that is free, or waits."""
+
+    def __init__(self, count: int) -> None:
+        self._all = [Worker() for _ in range(count)]
+        # The last one used is taken first, so that none is started without need.
+        self._free: queue.LifoQueue[Worker] = queue.LifoQueue()
+        for worker in reversed(self._all):
+            self._free.put(worker)
+
+    def open_drawing(self, drawing: Drawing, working_px: int) -> Building:
+        """Return what `building_from_drawing` does.
+
+        Raises
+        ------
+        OccsimError
+            Where the drawing is refused.
+        """
+        return self.call(building_from_drawing, drawing, working_px=working_px)
+
+    def call(self, function: Callable[..., T], *args: object, **kwargs: object) -> T:
+        """Return what a function of a module does; see `Worker.call`."""
+        worker = self._free.get()
+        try:
+            return worker.call(function, *args, **kwargs)
+        finally:
+            self._free.put(worker)
+
+    def start_early(self) -> None:
+        """Start one process, not waiting for it; its imports take a second."""
+        self._all[0].start_early()
+
+    def end(self) -> None:
+        """End the processes."""
+        for worker in self._all:
+            worker.end()
+
+
+WORKERS = Workers(min(os.cpu_count() or 1, 2))
+atexit.register(WORKERS.end)
 
 
 def main() -> None:
