@@ -14,6 +14,7 @@ from pages._ui import exercising, lessons, memory, navigation, state, words
 from pages._ui.components.address import address
 from pages._ui.navigation import PAGES, Page
 from pages._ui.qr import qr_popover
+from pages._ui.state import boards
 
 LOG = logging.getLogger(__name__)
 
@@ -187,6 +188,7 @@ def page(path: str) -> Iterator[Page]:
     if state.projector():
         st.html(PROJECTOR_CSS)
     state.finish()
+    boards.take_commits()
     state.take_kept()
     state.follow_link(path)
     navigation.draw(path)

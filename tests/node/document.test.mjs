@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { inflateSync } from "node:zlib";
 import { load, seeded } from "./scripts.mjs";
 
 const board = load("board");
@@ -23,6 +24,7 @@ function newBoard({ width = 150, height = 100, mode = "walls", overlay, points =
     root: { dataset: {}, querySelector: () => ({ setAttribute() {}, dataset: {} }) },
     camera: board.newCamera(),
     sending: 0,
+    said: 0,
     commitTimer: 0,
     lastCommit: -Infinity,
     closed: true, // nothing is painted
@@ -135,6 +137,21 @@ test("of commits that overtake each other only the last is sent", async () => {
   await new Promise((done) => setTimeout(done, 200));
   assert.equal(b.sent.length, 1);
   assert.deepEqual([b.sent[0].rev, b.sent[0].token, typeof b.sent[0].tiles], [1, "t", "string"]);
+});
+
+test("a press elsewhere sends at once what is not sent yet, and only that", async () => {
+  const b = newBoard();
+  board.sendNow(b);
+  assert.equal(b.sent.length, 0);
+  stroke(b, "brush", [[20, 20], [30, 30]]);
+  board.flush(b); // is being compressed
+  board.sendNow(b);
+  assert.equal(b.sent.length, 1);
+  const tiles = inflateSync(Buffer.from(b.sent[0].tiles, "base64"));
+  assert.deepEqual(tiles, Buffer.from(board.changedTiles(b)));
+  await new Promise((done) => setTimeout(done, 200));
+  board.sendNow(b);
+  assert.equal(b.sent.length, 1);
 });
 
 test("the oldest strokes are forgotten where their patches grow too many", () => {

@@ -122,6 +122,22 @@ def committed(key: str, mode: BoardMode) -> BoardDocument | None:
     return decode_commit(says, st.session_state.boards[key].imposed, mode)
 
 
+def keep_taker(key: str, take: Callable[[], None]) -> None:
+    """Keep what takes the commits of a board."""
+    st.session_state.setdefault("takers", {})[key] = take
+
+
+def take_commits() -> None:
+    """Take the commits whose callback a newer run cut short, first thing in that run.
+
+    The page may have been left meanwhile: then no board is shown that would return
+    them.
+    """
+    for key, take in list(st.session_state.get("takers", {}).items()):
+        if st.session_state.get(key):
+            take()
+
+
 def on_board(key: str) -> BoardDocument:
     """The current document of a board."""
     return st.session_state.boards[key].current

@@ -60,13 +60,17 @@ def board(
         take(drawn)
         kept.note(key, drawn, source())
 
+    def take_committed() -> None:
+        take_new(kept.committed(key, mode))
+
+    kept.keep_taker(key, take_committed)
     paper = paper or drawing_paper()
     returned = drawing_board(
         paper.picture,
         kept.board_document(key, source(), make),
         mode=mode,
         key=key,
-        on_commit=lambda: take_new(kept.committed(key, mode)),
+        on_commit=take_committed,
         metres_per_px=paper.metres_per_px,
         height_px=paper.height_px,
     )

@@ -43,12 +43,14 @@ function opened(parentElement) {
     hover: null,
     draft: null,
     sending: 0,
+    said: 0,
     selected: -1,
     partsInWalls: 0,
     loading: 0,
     waiting: null,
     commitTimer: 0,
     lastCommit: -Infinity,
+    heard: new AbortController(),
   };
   for (const [name, tool] of Object.entries(TOOLS)) if (tool.width) b.widths[name] = tool.width;
   listen(b);
@@ -66,6 +68,7 @@ function opened(parentElement) {
 
 function close(b) {
   b.closed = true;
+  b.heard.abort();
   stopTimers(b);
   b.observer.disconnect();
 }

@@ -199,9 +199,22 @@ function flush(b) {
 
 async function send(b) {
   const turn = ++b.sending;
-  const { rev, token, mode } = b.header;
-  const edits =
-    mode === "walls" ? { tiles: base64(await deflated(changedTiles(b))) } : { points: b.doc.points };
+  const { header } = b;
+  const tiles = header.mode === "walls" ? await deflated(changedTiles(b)) : null;
   // A commit that was begun later is more complete.
-  if (turn === b.sending) b.setStateValue("committed", { rev, token, ...edits });
+  if (turn === b.sending) say(b, header, tiles);
+}
+
+function say(b, { rev, token }, tiles) {
+  b.said = b.sending;
+  const edits = tiles ? { tiles: base64(tiles) } : { points: b.doc.points };
+  b.setStateValue("committed", { rev, token, ...edits });
+}
+
+// A press elsewhere may lead away from the board: what is not sent yet goes before it.
+function sendNow(b) {
+  if (!b.commitTimer && b.said === b.sending) return;
+  clearTimeout(b.commitTimer);
+  Object.assign(b, { commitTimer: 0, lastCommit: performance.now(), sending: b.sending + 1 });
+  say(b, b.header, b.header.mode === "walls" ? stored(changedTiles(b)) : null);
 }

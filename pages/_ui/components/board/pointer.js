@@ -11,12 +11,16 @@ function listen(b) {
   on(canvas, "pointermove", (event) => pointerMove(b, event));
   on(canvas, "pointerup", (event) => pointerUp(b, event));
   on(canvas, "pointercancel", (event) => pointerLost(b, event));
-  on(canvas, "pointerleave", () => pointerLeave(b));
+  on(canvas, "pointerleave", () => hoverAt(b, null));
   on(canvas, "contextmenu", (event) => contextMenu(b, event));
   on(canvas, "wheel", (event) => wheel(b, event), { passive: false });
   on(canvas, "blur", () => ((b.keyboard = null), (b.space = false), requestPaint(b)));
   on(root, "keydown", (event) => keyDown(b, event));
   on(root, "keyup", (event) => keyUp(b, event));
+  const elsewhere = (event) => event.composedPath().includes(canvas) || sendNow(b);
+  for (const name of ["pointerdown", "keydown"]) {
+    on(document, name, elsewhere, { capture: true, signal: b.heard.signal });
+  }
 }
 
 function screenPoint(b, event) {
@@ -147,12 +151,6 @@ function movePinch(b) {
   b.pinch = now;
   showState(b);
   requestPaint(b);
-}
-
-// A pointer that leaves the canvas may be about to leave the page.
-function pointerLeave(b) {
-  hoverAt(b, null);
-  if (b.commitTimer) flush(b);
 }
 
 function hoverAt(b, point) {

@@ -19,6 +19,25 @@ async function piped(bytes, transform) {
 const inflated = (bytes) => piped(bytes, new DecompressionStream("deflate"));
 const deflated = (bytes) => piped(bytes, new CompressionStream("deflate"));
 
+// Such a stream at once, not compressed: blocks that are stored, then Adler's checksum.
+function stored(bytes) {
+  const most = 65535;
+  const count = Math.max(Math.ceil(bytes.length / most), 1);
+  const out = new Uint8Array(2 + 5 * count + bytes.length + 4);
+  out.set([0x78, 0x01]);
+  for (let k = 0, at = 2; k < count; k++) {
+    const block = bytes.subarray(k * most, (k + 1) * most);
+    const n = block.length;
+    out.set([Number(k + 1 === count), n & 255, n >> 8, ~n & 255, (~n >> 8) & 255], at);
+    out.set(block, at + 5);
+    at += 5 + n;
+  }
+  let [a, b] = [1, 0];
+  for (const byte of bytes) b = (b + (a = (a + byte) % 65521)) % 65521;
+  new DataView(out.buffer).setUint32(out.length - 4, b * 65536 + a);
+  return out;
+}
+
 // One bit a flag, high bit first, as numpy.packbits writes them.
 function unpackBits(bytes, count) {
   const flags = new Uint8Array(count);
