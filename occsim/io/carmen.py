@@ -16,7 +16,7 @@ import numpy as np
 from occsim._files import printable, read_source
 from occsim._types import FloatArray
 from occsim.errors import OccsimError, RobotFileError, choice
-from occsim.io.scans import MAX_RANGES, MetricScans, checked_length, metric_scans
+from occsim.io.scans import MAX_RANGES, MetricScans, check_lengths, metric_scans
 
 MAX_FILE_BYTES = 100_000_000
 MAX_LINE_BYTES = 200_000
@@ -175,13 +175,11 @@ def load(
     (array([[inf, 40., 20.]]), 0.05)
     """
     source = choice("poses", poses, PoseSource)
-    for option, value in (
-        ("metres_per_px", metres_per_px),
-        ("max_range_m", max_range_m),
-        ("usable_range_m", usable_range_m),
-    ):
-        if value is not None:
-            checked_length(option, value)
+    check_lengths(
+        metres_per_px=metres_per_px,
+        max_range_m=max_range_m,
+        usable_range_m=usable_range_m,
+    )
     data, name = read_source(
         log,
         what="the log",

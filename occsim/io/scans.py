@@ -243,12 +243,7 @@ def load(
     array([[10., 20., 10.]])
     """
     checked_length("metres_per_px", metres_per_px)
-    for option, value in (
-        ("max_range_m", max_range_m),
-        ("usable_range_m", usable_range_m),
-    ):
-        if value is not None:
-            checked_length(option, value)
+    check_lengths(max_range_m=max_range_m, usable_range_m=usable_range_m)
     data, _ = read_source(
         source,
         what="the scans",
@@ -282,6 +277,16 @@ def load(
         )
     except OccsimError as error:
         raise RobotFileError(str(error)) from None
+
+
+def check_lengths(**given: float | None) -> None:
+    """Refuse an option that is not a length in metres; one that is not given is none.
+
+    Done first, so that a wrong option is named before a long file is read.
+    """
+    for name, value in given.items():
+        if value is not None:
+            checked_length(name, value)
 
 
 def checked_length(name: str, value: object) -> float:

@@ -17,7 +17,7 @@ from occsim._npz import unpacked
 from occsim._types import FloatArray
 from occsim.errors import OccsimError, RobotFileError
 from occsim.io.rigid import covered, in_plane, poses_at
-from occsim.io.scans import MAX_RANGES, MetricScans, checked_length, metric_scans
+from occsim.io.scans import MAX_RANGES, MetricScans, check_lengths, metric_scans
 
 MAX_POSE_BYTES = 100_000_000
 MAX_SCAN_BYTES = 200_000_000
@@ -106,13 +106,11 @@ def load(
     >>> found.times_s, found.scan_log.ranges_px.round(1)
     (array([4.]), array([[inf, 60.]]))
     """
-    for option, value in (
-        ("metres_per_px", metres_per_px),
-        ("max_range_m", max_range_m),
-        ("usable_range_m", usable_range_m),
-    ):
-        if value is not None:
-            checked_length(option, value)
+    check_lengths(
+        metres_per_px=metres_per_px,
+        max_range_m=max_range_m,
+        usable_range_m=usable_range_m,
+    )
     samples = _trajectory(trajectory)
     times, bearings, ranges, own_most = _scans(scans)
     most = own_most if max_range_m is None else float(max_range_m)

@@ -20,7 +20,7 @@ from occsim._npz import unpacked
 from occsim._types import FloatArray
 from occsim.errors import OccsimError, RobotFileError, choice
 from occsim.io.bags.limits import ARRAYS, MAX_FILE_BYTES, MAX_SECONDS, PoseSource
-from occsim.io.scans import MAX_RANGES, MetricScans, checked_length, metric_scans
+from occsim.io.scans import MAX_RANGES, MetricScans, check_lengths, metric_scans
 
 MARKS = {b"#ROSBAG V2.0": ".bag", b"\x89MCAP0\r\n": ".mcap", b"SQLite format 3": ".db3"}
 """How the files of bags begin, and the suffix by which `rosbags` knows them."""
@@ -125,13 +125,11 @@ def load(
     occsim.errors.RobotFileError: the bag is none of ROS (.bag, .mcap or .db3)
     """
     wanted = choice("poses", poses, PoseSource)
-    for option, value in (
-        ("metres_per_px", metres_per_px),
-        ("max_range_m", max_range_m),
-        ("usable_range_m", usable_range_m),
-    ):
-        if value is not None:
-            checked_length(option, value)
+    check_lengths(
+        metres_per_px=metres_per_px,
+        max_range_m=max_range_m,
+        usable_range_m=usable_range_m,
+    )
     data, name = read_source(
         source,
         what="the bag",
