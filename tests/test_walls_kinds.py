@@ -5,6 +5,7 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 import pytest
+from PIL import Image, ImageDraw, ImageFont
 
 from occsim.imaging import Drawing
 from occsim.samples import load_sample
@@ -318,12 +319,14 @@ def headed(upright: bool) -> Pair:
     """A house with a heading whose strokes are as thick as its walls."""
     wall = base()
     sheet = black_on(wall)
-    font = cv2.FONT_HERSHEY_SIMPLEX
-    if upright:
-        sheet = np.ascontiguousarray(np.rot90(sheet))
-        wall = np.ascontiguousarray(np.rot90(wall))
-    cv2.putText(sheet, "FIRST FLOOR 12", (20, 45), font, 1.3, (0, 0, 0), 8)
-    return (np.rot90(sheet, -1), np.rot90(wall, -1)) if upright else (sheet, wall)
+    turns = int(upright)
+    image = Image.fromarray(np.rot90(sheet, turns))
+    # Pillow's own font: that of OpenCV's putText is another in each of its releases.
+    font = ImageFont.load_default(44)
+    ImageDraw.Draw(image).text(
+        (20, 4), "FIRST FLOOR 12", (0, 0, 0), font, stroke_width=2
+    )
+    return np.rot90(np.asarray(image), -turns), wall
 
 
 def in_a_large_frame() -> Pair:

@@ -12,7 +12,7 @@ from occsim.walls.raster import Components, components, flipped
 LETTER_PX = 6
 """Least height of a letter, px of the sheet: what is smaller is thinner than a wall."""
 
-LARGEST = 1 / 12
+LARGEST = 1 / 8
 """Greatest height of a letter, share of the sheet's shorter side."""
 
 WIDEST = 2.5
