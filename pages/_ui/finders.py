@@ -11,7 +11,7 @@ EXACT = "exact"
 """The source's cone: every pixel looked at, without errors."""
 NAMES = (EXACT, *RANGE_FINDERS)
 OF_SENSOR = ("range_px", "fov_deg", "behind_hit")
-OF_ERRORS = (
+OF_READINGS = (
     "beams",
     "sigma_0_m",
     "sigma_2_per_m",
@@ -19,10 +19,9 @@ OF_ERRORS = (
     "dropout_share",
     "short_share",
     "glass_share",
-    "position_sigma_m",
-    "heading_sigma_deg",
-    "odometry_drift",
 )
+OF_POSES = ("position_sigma_m", "heading_sigma_deg", "odometry_drift")
+OF_ERRORS = (*OF_READINGS, *OF_POSES)
 """The settings of beams and errors; without any of them readings are exact."""
 
 

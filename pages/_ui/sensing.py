@@ -9,21 +9,12 @@ from occsim.scan import RANGE_FINDERS
 from pages._ui import controls, finders, state
 from pages._ui.settings import Settings
 
-RANGES = (
-    "beams",
-    "sigma_0_m",
-    "sigma_2_per_m",
-    "sigma_from_m",
-    "dropout_share",
-    "short_share",
-    "glass_share",
-)
-POSES = ("position_sigma_m", "heading_sigma_deg", "odometry_drift", "noise_seed")
+SEED = "noise_seed"
 
 
 def sensor_errors(box: Callable[[str], Any]) -> None:
     """Draw the group in a box whose label says whether readings are exact."""
-    if not [name for name in (*RANGES, *POSES) if controls.shown(name)]:
+    if not [name for name in (*finders.OF_ERRORS, SEED) if controls.shown(name)]:
         return
     settings = state.settings()
     is_on = settings.scan is not None
@@ -36,13 +27,13 @@ def sensor_errors(box: Callable[[str], Any]) -> None:
         left, right = st.columns(2, gap="medium")
         with left:
             _finder(settings)
-            for name in RANGES:
+            for name in finders.OF_READINGS:
                 controls.slider(name)
         with right:
-            for name in POSES[:-1]:
+            for name in finders.OF_POSES:
                 controls.slider(name)
             if settings.noise is not None:
-                controls.number("noise_seed")
+                controls.number(SEED)
             st.button(
                 "Exact readings",
                 on_click=state.change,
