@@ -47,6 +47,7 @@ from occsim.prior import (
     build_prior,
     calibrated_prior,
     estimated_prior,
+    unknown_cells,
 )
 from occsim.priors import (
     Elitism,
@@ -218,5 +219,6 @@ __all__ = [
     "surface_front",
     "sweep_priors",
     "truth_cells",
+    "unknown_cells",
     "worth_in_readings",
 ]

@@ -131,7 +131,12 @@ class PriorMap(ShortRepr):
         return logit(self.p_free)
 
 
-def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
+def prior_from_cells(
+    is_wall: BoolArray,
+    grid: Grid,
+    prior: Prior,
+    is_unknown: BoolArray | None = None,
+) -> PriorMap:
     """Return the prior map of cells that are already classed.
 
     Parameters
@@ -142,6 +147,8 @@ def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
         The cells.
     prior : Prior
         Values for the two classes.
+    is_unknown : ndarray of bool, shape (R, C), optional
+        Cells of which the drawing says nothing: p_free is one half; none by default.
 
     Returns
     -------
@@ -150,16 +157,22 @@ def prior_from_cells(is_wall: BoolArray, grid: Grid, prior: Prior) -> PriorMap:
     Raises
     ------
     TypeError, ParameterError
-        Where the array is not bool, or not of the grid's shape.
+        Where an array is not bool, or not of the grid's shape.
     """
     is_wall = cells_of("is_wall", is_wall, grid)
     expect("prior", prior, Prior)
     p_free = np.where(is_wall, prior.p_free_wall, prior.p_free_space)
+    if is_unknown is not None:
+        p_free[cells_of("is_unknown", is_unknown, grid)] = 0.5
     return PriorMap(grid=grid, is_wall=is_wall, p_free=p_free)
 
 
 def build_prior(
-    wall_mask: BoolArray, grid: Grid, prior: Prior, wall_share: float = 0.0
+    wall_mask: BoolArray,
+    grid: Grid,
+    prior: Prior,
+    wall_share: float = 0.0,
+    unknown: BoolArray | None = None,
 ) -> PriorMap:
     """Return the prior map that a detected wall mask gives.
 
@@ -173,6 +186,8 @@ def build_prior(
         Values for wall cells and space cells.
     wall_share : float, default 0
         Share of wall pixels that a wall cell must exceed, in [0, 1).
+    unknown : array_like of bool, shape (H, W), optional
+        Pixels of which the drawing says nothing; see `unknown_cells`. None by default.
 
     Returns
     -------
@@ -181,7 +196,7 @@ def build_prior(
     Raises
     ------
     TypeError
-        Where the mask is not bool (a grey image is none), or the grid no `Grid`.
+        Where a mask is not bool (a grey image is none), or the grid no `Grid`.
     ParameterError
         Where sizes differ or the threshold lies outside its domain.
 
@@ -194,7 +209,48 @@ def build_prior(
     >>> build_prior(mask, grid, Prior(p_wall=0.2, p_space=0.9)).p_free
     array([[0.18, 0.81]])
     """
-    return prior_from_cells(wall_cells(wall_mask, grid, wall_share), grid, prior)
+    is_wall = wall_cells(wall_mask, grid, wall_share)
+    return prior_from_cells(is_wall, grid, prior, unknown_cells(unknown, is_wall, grid))
+
+
+def unknown_cells(
+    unknown: BoolArray | None, is_wall: BoolArray, grid: Grid
+) -> BoolArray | None:
+    """Return the cells of which a drawing says nothing, such as a robot's map.
+
+    Parameters
+    ----------
+    unknown : array_like of bool, shape (H, W), or None
+        Pixels of which it says nothing.
+    is_wall : ndarray of bool, shape (R, C)
+        Its wall cells.
+    grid : Grid
+        Cells over the same image.
+
+    Returns
+    -------
+    ndarray of bool, shape (R, C), or None
+        Cells that are no wall cell and half or more of whose pixels are unknown; None
+        where all is known.
+
+    Raises
+    ------
+    TypeError, ParameterError
+        Where an array is not bool, or not of its shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from occsim import Grid, unknown_cells
+    >>> grid = Grid(height_px=1, width_px=6, cell_px=2)
+    >>> unknown = np.array([[True, False, False, False, True, True]])
+    >>> unknown_cells(unknown, np.array([[False, False, True]]), grid)
+    array([[ True, False, False]])
+    """
+    is_wall = cells_of("is_wall", is_wall, grid)
+    if unknown is None:
+        return None
+    return (grid.share(unknown) >= 0.5) & ~is_wall
 
 
 def calibrated_prior(is_wall: BoolArray, truth: BoolArray) -> tuple[float, float]:

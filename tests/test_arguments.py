@@ -35,6 +35,7 @@ from tests.test_metrics import log_of
 
 GRID = Grid(height_px=1, width_px=2, cell_px=1)
 WALL = np.array([[True, False]])
+NO_WALL = ~WALL
 LOG = log_of(GRID, [{0: 0.1, 1: 0.9}, {0: 0.1}])
 PRIOR_MAP = build_prior(WALL, GRID, Prior())
 PAIR = [0.2], [0.9]
@@ -180,7 +181,7 @@ SEARCH = {"objective": SURFACE, "pop_size": 4, "n_gen": 1, "seed": 0, **BOX}
 SEARCH |= {"elitism": Elitism.FULL, "pareto_fraction": 0.35}
 GOOD = {
     "best_log_loss_pair": {**CELLS, **CHOICES},
-    "loss_surface": {**CELLS, **CHOICES},
+    "loss_surface": {**CELLS, **CHOICES, "is_unknown": NO_WALL},
     "log_loss": {"occupancy_map": MAP, "truth": WALL, "region": Region.ALL},
     "brier": {"occupancy_map": MAP, "truth": WALL, "region": Region.ALL},
     "reliability": {
@@ -220,6 +221,7 @@ GOOD = {
         "grid": GRID,
         "prior": Prior(),
         "wall_share": 0.0,
+        "unknown": NO_WALL,
     },
     "collect_evidence": ASKED,
     "collect_totals": ASKED,
@@ -263,7 +265,7 @@ GOOD = {
     },
     "p_free_from_log_odds": {"log_odds": [0.5]},
     "prior_drawing": {"building": occsim.load_sample("c"), "which": "d"},
-    "prior_surface": {**CELLS, **CHOICES, "scale": 0.9},
+    "prior_surface": {**CELLS, **CHOICES, "scale": 0.9, "is_unknown": NO_WALL},
     "recommend": {"front": FRONT, "min_recall": 0.4},
     "rectangles_at": {"surface": SURFACE, "p_wall": 0.5, "p_space": 0.5, **BOX},
     "reference_point": {"front": FRONT, "margin": 0.1},
@@ -297,6 +299,7 @@ GOOD = {
         "scale": 0.9,
     },
     "truth_cells": {"world": WORLD, "grid": WORLD.grid(2), "wall_share": 0.0},
+    "unknown_cells": {"unknown": NO_WALL, "is_wall": WALL, "grid": GRID},
     "default_tour": {"world": WORLD, "sensor": Sensor(), "max_readings": 4},
     "detect_walls": {
         "drawing": Drawing(np.zeros((9, 9, 3), np.uint8)),

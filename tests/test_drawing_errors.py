@@ -36,7 +36,7 @@ def test_the_player_replays_the_prior_of_the_drawing_with_its_errors():
     building = compute.sample("d")
     run = compute.run(building, settings(prior_drawing=PriorDrawing.E))
     parts = replays.replay(building, run.settings).parts
-    [walls] = [unpack_walls(part.data) for part in parts if part.kind == "walls"]
+    [(walls, _)] = [unpack_walls(part.data) for part in parts if part.kind == "walls"]
     np.testing.assert_array_equal(walls, run.mapped.wall_cells)
 
 

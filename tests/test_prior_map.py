@@ -137,6 +137,11 @@ def test_the_settings_make_the_same_prior_again():
     again = Prior(**{name: kept[name] for name in ("p_wall", "p_space", "scale")})
     assert again == PRIOR
     assert kept["n_wall_cells"] == 2
+    assert kept["n_unknown_cells"] == 0
+    unknown = ~IS_WALL & (np.arange(IS_WALL.size).reshape(IS_WALL.shape) % 2 == 0)
+    partly = prior_from_cells(IS_WALL, GRID, PRIOR, unknown)
+    document = json.loads(prior_json(partly, PRIOR, drawing(), chosen_on))
+    assert document["prior"]["n_unknown_cells"] == unknown.sum() > 0
     assert document["drawing"]["name"] == "plan.png"
     assert document["grid"]["n_rows"] == 2
     assert document["chosen_on"] == {"update_rule": "subtract_prior", "precision": None}

@@ -82,7 +82,12 @@ def test_unpacking_gives_back_what_was_packed(run):
     np.testing.assert_array_equal(evidence.cell, log.cell[order])
     np.testing.assert_array_equal(evidence.log_odds, log.log_odds[order])
     np.testing.assert_array_equal(judged_by, truth)
-    np.testing.assert_array_equal(unpack_walls(pack_walls(is_wall)), is_wall)
+    walls, unknown = unpack_walls(pack_walls(is_wall))
+    np.testing.assert_array_equal(walls, is_wall)
+    assert unknown is None
+    walls, unknown = unpack_walls(pack_walls(is_wall, truth))  # any flags will do
+    np.testing.assert_array_equal(walls, is_wall)
+    np.testing.assert_array_equal(unknown, truth)
 
 
 @given(st.integers(1, 9), st.integers(1, 30), st.integers(1, 30), st.randoms())

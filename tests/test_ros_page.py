@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from occsim import Prior
+from occsim.io.replay import unpack_walls
 from occsim.io.ros_map import (
     MapMode,
     RosMap,
@@ -12,7 +14,11 @@ from occsim.io.ros_map import (
     map_drawing,
     pack,
 )
+from pages._ui import compute, replays
+from pages._ui.choices import Flaw, PriorDrawing
+from pages._ui.columns import Column
 from pages._ui.robot_data import files, ros
+from pages._ui.settings import Settings
 from tests.test_pages import launch, own, said
 
 PAGE = "pages/4_Robot_data.py"
@@ -119,6 +125,46 @@ def test_a_map_of_the_drawings_size_is_its_ground_truth_or_its_walls():
     np.testing.assert_array_equal(own(app).wall_mask, MAP.is_occupied)
     app = click(app, "Use as prior")
     np.testing.assert_array_equal(own(app).wall_mask, other.is_occupied)
+
+
+def shown_drawn(building, columns):
+    """Wall cells and unknown cells as the player gets them, by column."""
+    parts = replays.replay_of(building, Settings(cell_px=1), columns).parts
+    return [unpack_walls(part.data) for part in parts if part.kind == "walls"]
+
+
+def test_what_a_map_does_not_know_stays_unknown_on_every_page():
+    app = click(give(opened(), *two_files()), "Use as drawing")
+    building = own(app)
+    mirrored = Column(cell_px=1, prior_drawing=PriorDrawing.MIRRORED)
+    thin = Column(cell_px=1, flaw=Flaw.THIN_1)
+    drawn = shown_drawn(building, [Column(cell_px=1), mirrored, thin])
+    unknown = [MAP.is_unknown, MAP.is_unknown[:, ::-1], MAP.is_unknown]
+    for (is_wall, is_unknown), expected in zip(drawn, unknown, strict=True):
+        np.testing.assert_array_equal(is_unknown, expected & ~is_wall)
+    run = compute.run(building, Settings(cell_px=1))
+    prior_map = run.prior_map(Prior())
+    np.testing.assert_array_equal(prior_map.p_free == 0.5, MAP.is_unknown)
+    for page in (YOURS, "pages/3_Two_maps.py", "pages/5_Sweep_the_priors.py"):
+        app.switch_page(page).run()
+        assert not app.exception
+
+
+def test_a_map_as_prior_brings_its_unknown_and_it_can_be_forgotten():
+    app = click(give(opened(), *two_files()), "Use as drawing")
+    known = np.where(values() == -1, 0, values())
+    known[20:60, 20:60] = -1
+    app = click(give(app, *two_files(RosMap(known, 0.05))), "Use as prior")
+    np.testing.assert_array_equal(own(app).unknown, known == -1)
+    app.session_state["views"] = {"section": "4 Corrections"}
+    app.switch_page(YOURS).run()
+    share = f"{100 * (known == -1).mean():.1f} %"
+    assert any(f"unknown in {share}" in text for text in said(app.caption))
+    app = click(app, "Take unknown for free space")
+    assert own(app).unknown is None
+    assert not any("is unknown in" in text for text in said(app.caption))
+    click(app, "Undo")
+    np.testing.assert_array_equal(own(app).unknown, known == -1)
 
 
 def test_a_map_of_another_size_is_refused_in_a_sentence():

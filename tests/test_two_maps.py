@@ -141,7 +141,7 @@ def test_each_map_gets_the_walls_of_its_drawing_with_its_errors(flaw):
     mask = compute.drawn_mask(building, (PriorDrawing.D, FLAWS[flaw]))
     run = compute.mapped(building, Settings(range_px=20).mapping_of(column))
     expected = run.with_prior_mask(mask).wall_cells
-    walls = unpack_walls(parts["walls", f"d {flaw.value} 3"].data)
+    walls, _ = unpack_walls(parts["walls", f"d {flaw.value} 3"].data)
     assert (walls == expected).all()
     log, truth = unpack_log(parts["log", "occupied 3"].data)
     assert log.cell.size == run.evidence.cell.size

@@ -46,6 +46,9 @@ class Building:
         first use.
     corrections : Corrections, optional
         Corrections made to them by hand; none by default.
+    unknown : ndarray of bool, shape (H, W), optional
+        Pixels of which the drawing says nothing, as a robot's map of what it never
+        saw: a prior made from it is one half there. None by default.
     truth : ndarray of bool, shape (H, W), optional
         Ground truth, in register with the drawing: structure only, doors open. Without
         one the corrected walls serve as the world.
@@ -94,6 +97,7 @@ class Building:
     found: BoolArray | None = None
     # None becomes an empty overlay below: its size is the drawing's.
     corrections: Corrections = None  # type: ignore[assignment]
+    unknown: BoolArray | None = None
     truth: BoolArray | None = None
     wall_params: WallParams = WallParams()
     sensor: Sensor = Sensor()
@@ -112,6 +116,7 @@ class Building:
         if not self.name:
             object.__setattr__(self, "name", self.drawing.name)
         _check_mask("wall mask", self.found, shape)
+        _check_mask("unknown pixels", self.unknown, shape)
         _check_mask("ground truth", self.truth, shape)
         _check_size("corrections", self.corrections.shape, shape)
         for what in ("door_px", "metres_per_px"):
@@ -145,7 +150,10 @@ class Building:
     def digest(self) -> str:
         """Identifies everything that a result can depend on."""
         content = hashlib.sha256(self.drawing.digest.encode())
-        for part in (self.wall_mask, self.world.occupied, self.trajectory.poses):
+        parts = [self.wall_mask, self.world.occupied, self.trajectory.poses]
+        if self.unknown is not None:
+            parts.append(self.unknown)
+        for part in parts:
             content.update(repr((part.shape, part.dtype.str)).encode())
             content.update(np.ascontiguousarray(part).data)
         return content.hexdigest()
@@ -223,6 +231,7 @@ class Building:
             drawing=transform.drawing(self.drawing),
             found=None,
             corrections=self.corrections.transformed(transform),
+            unknown=None if self.unknown is None else transform.mask(self.unknown),
             truth=None if self.truth is None else transform.mask(self.truth),
             trajectory=Trajectory(poses=transform.poses(self.trajectory.poses)),
             tour=None,

@@ -170,6 +170,12 @@ def prior_json(
             "p_free_wall_cells": prior.p_free_wall,
             "p_free_space_cells": prior.p_free_space,
             "n_wall_cells": int(np.count_nonzero(prior_map.is_wall)),
+            # Neither wall nor space: the drawing says nothing, so p_free is one half.
+            "n_unknown_cells": int(
+                np.count_nonzero(
+                    ~prior_map.is_wall & (prior_map.p_free != prior.p_free_space)
+                )
+            ),
         },
         "chosen_on": chosen,
     }

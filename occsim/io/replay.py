@@ -48,6 +48,7 @@ offset type             content of walls
 0      4 bytes          ``OGW2``
 4      uint32 [2]       R, C
 12     ceil(R C / 8)    the prior's wall cells
+next   ceil(R C / 8)    cells of which it says nothing; left out where there are none
 ====== ================ ==========================================================
 
 A *run* is a stretch of consecutive flat cells that one reading updated: a cone covers
@@ -194,10 +195,14 @@ def pack_log(
     )
 
 
-def pack_walls(is_wall: BoolArray) -> bytes:
-    """Return a prior's wall cells, ndarray of bool of shape (R, C), as bytes."""
+def pack_walls(is_wall: BoolArray, is_unknown: BoolArray | None = None) -> bytes:
+    """Return a prior's wall cells as bytes, and those of which it says nothing.
+
+    Arrays of bool of shape (R, C); see the module's text.
+    """
     header = WALLS_HEADER.pack(WALLS, *is_wall.shape)
-    return _compressed(header, np.packbits(is_wall).tobytes())
+    planes = [is_wall] if is_unknown is None else [is_wall, is_unknown]
+    return _compressed(header, *(np.packbits(plane).tobytes() for plane in planes))
 
 
 def unpack_scene(packed: bytes) -> Scene:
@@ -222,8 +227,8 @@ def unpack_log(packed: bytes) -> tuple[EvidenceLog, BoolArray]:
     return _unpacked(packed, LOG_HEADER, LOG, _read_log)
 
 
-def unpack_walls(packed: bytes) -> BoolArray:
-    """Return the wall cells that `pack_walls` packed.
+def unpack_walls(packed: bytes) -> tuple[BoolArray, BoolArray | None]:
+    """Return the wall cells and the unknown cells that `pack_walls` packed.
 
     Raises
     ------
@@ -356,8 +361,12 @@ def _read_log(
     return evidence, reader.flags(grid.shape)
 
 
-def _read_walls(numbers: tuple[Any, ...], reader: _Reader) -> BoolArray:
-    return reader.flags((numbers[0], numbers[1]))
+def _read_walls(
+    numbers: tuple[Any, ...], reader: _Reader
+) -> tuple[BoolArray, BoolArray | None]:
+    shape = numbers[0], numbers[1]
+    is_wall, is_complete = reader.flags(shape), reader.at == len(reader.content)
+    return is_wall, None if is_complete else reader.flags(shape)
 
 
 def _evidence(

@@ -147,6 +147,7 @@ def loss_surface(
     truth: BoolArray,
     rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.ALL,
+    is_unknown: BoolArray | None = None,
 ) -> LossSurface:
     """Return the log loss of the final map as a function of the prior pair.
 
@@ -162,6 +163,9 @@ def loss_surface(
         How a reading enters the map.
     region : Region, default Region.ALL
         Which cells are scored.
+    is_unknown : ndarray of bool, shape (R, C), optional
+        Cells of which the drawing says nothing: no pair changes their prior of one
+        half. None by default.
 
     Returns
     -------
@@ -184,7 +188,7 @@ def loss_surface(
     array([[1.   ],
            [0.708]])
     """
-    groups = scored_groups(evidence, is_wall, truth, rule, region)
+    groups = scored_groups(evidence, is_wall, truth, rule, region, is_unknown)
     wall_hit, wall_free, space_hit, space_free = groups
     n_cells = sum(sums.size for sums, _ in groups)
     return LossSurface(

@@ -161,6 +161,7 @@ def prior_surface(
     rule: UpdateRule = UpdateRule.PRIOR_ONCE,
     region: Region = Region.EXPLORED,
     scale: float = PRIOR_SCALE,
+    is_unknown: BoolArray | None = None,
 ) -> PriorSurface:
     """Return true and false positives as exact functions of the prior pair.
 
@@ -178,6 +179,9 @@ def prior_surface(
         Which cells are scored.
     scale : float, default 0.9
         Factor on p_wall and p_space.
+    is_unknown : ndarray of bool, shape (R, C), optional
+        Cells of which the drawing says nothing: no pair changes their prior of one
+        half. None by default.
 
     Returns
     -------
@@ -200,7 +204,7 @@ def prior_surface(
     >>> prior_surface(log, wall, wall).counts([0.5, 0.99, 1.0], 0.5)[0]
     array([1, 1, 0])
     """
-    groups = scored_groups(evidence, is_wall, truth, rule, region)
+    groups = scored_groups(evidence, is_wall, truth, rule, region, is_unknown)
     scale = real_number("scale", scale)
     if not 0.0 < scale <= 1.0:
         raise ParameterError(f"scale must lie in (0, 1]; got {scale!r}")
@@ -216,12 +220,13 @@ def scored_groups(
     truth: BoolArray,
     rule: UpdateRule,
     region: Region,
+    is_unknown: BoolArray | None = None,
 ) -> list[tuple[FloatArray, FloatArray]]:
     """Return S and w of ``l = S + w l_0`` for the scored cells, in four groups.
 
     Parameters
     ----------
-    evidence, is_wall, truth, rule, region
+    evidence, is_wall, truth, rule, region, is_unknown
         As in `prior_surface`.
 
     Returns
@@ -235,7 +240,10 @@ def scored_groups(
     truth = cells_of("truth", truth, evidence.grid)
     sums, counts = evidence.totals()
     scored = choice("region", region, Region).scored(counts)
-    sums, weight = sums[scored], prior_weight(counts[scored], rule)
+    weight = prior_weight(counts, rule)
+    if is_unknown is not None:  # their l_0 is 0, whatever the pair
+        weight = np.where(cells_of("is_unknown", is_unknown, evidence.grid), 0, weight)
+    sums, weight = sums[scored], weight[scored]
     wall, hit = is_wall[scored], truth[scored]
     groups = (wall & hit, wall & ~hit, ~wall & hit, ~wall & ~hit)
     return [(sums[group], weight[group]) for group in groups]

@@ -5,8 +5,10 @@ first asked for, and kept. Nothing of a run depends on a prior or on an update r
 those are arguments.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy.typing as npt
 
@@ -27,6 +29,7 @@ from occsim.metrics import (
     worth_in_readings,
 )
 from occsim.prior import Prior, PriorMap, calibrated_prior, prior_from_cells
+from occsim.prior import unknown_cells as cells_unknown
 from occsim.priors import (
     SOURCE_AXIS,
     LossSurface,
@@ -42,6 +45,8 @@ from occsim.run.readings import simulated_readings, simulated_scans
 from occsim.run.settings import MapSettings
 from occsim.scan import ScanLog
 from occsim.world import truth_cells, wall_cells
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,11 +65,13 @@ class MappingRun:
     prior_mask : ndarray of bool, shape (H, W), optional
         Walls that the prior is made from; the building's by default. The world stays
         what it is.
+    prior_unknown : ndarray of bool, shape (H, W), optional
+        Pixels of which the prior says nothing; the building's by default.
 
     Raises
     ------
     TypeError, ParameterError
-        Where `prior_mask` is not bool, or not of the drawing's size.
+        Where a mask is not bool, or not of the drawing's size.
 
     Examples
     --------
@@ -79,34 +86,35 @@ class MappingRun:
     settings: MapSettings = MapSettings()
     log: EvidenceLog | None = None
     prior_mask: BoolArray | None = None
+    prior_unknown: BoolArray | None = None
 
     def __post_init__(self) -> None:
-        if self.prior_mask is not None:
-            bool_array("prior_mask", self.prior_mask, self.building.drawing.shape)
+        for name in ("prior_mask", "prior_unknown"):
+            if (mask := getattr(self, name)) is not None:
+                bool_array(name, mask, self.building.drawing.shape)
 
-    def with_prior_mask(self, mask: BoolArray | None) -> "MappingRun":
+    def with_prior_mask(
+        self, mask: BoolArray | None, unknown: BoolArray | None = None
+    ) -> "MappingRun":
         """Return the run with a prior made from other walls.
 
         Parameters
         ----------
         mask : ndarray of bool, shape (H, W), or None
             The walls; None for the building's own.
+        unknown : ndarray of bool, shape (H, W), optional
+            Pixels of which that drawing says nothing; by default the building's own.
 
         Returns
         -------
         MappingRun
-            It shares the readings and the truth: nothing is simulated again.
-
-        Raises
-        ------
-        TypeError, ParameterError
-            Where the mask is not bool, or not of the drawing's size.
+            It shares the readings and the truth.
         """
-        if mask is None and self.prior_mask is None:
+        if mask is self.prior_mask is unknown is self.prior_unknown is None:
             return self  # and with it all that was computed
-        other = replace(self, log=self.evidence, prior_mask=mask)
-        vars(other)["truth_cells"] = self.truth_cells
-        vars(other)["scan_log"] = self.scan_log
+        log = self.evidence
+        other = replace(self, log=log, prior_mask=mask, prior_unknown=unknown)
+        vars(other).update(truth_cells=self.truth_cells, scan_log=self.scan_log)
         return other
 
     @cached_property
@@ -124,8 +132,8 @@ class MappingRun:
         """The readings, independent of any prior."""
         if self.log is not None:
             return self.log
-        scans, grid = self.scan_log, self.grid
-        return simulated_readings(self.building, self.settings, scans, grid)
+        given = self.building, self.settings, self.scan_log, self.grid
+        return simulated_readings(*given)
 
     @cached_property
     def wall_cells(self) -> BoolArray:
@@ -135,6 +143,12 @@ class MappingRun:
         return wall_cells(mask, self.grid, self.settings.wall_share)
 
     @cached_property
+    def unknown_cells(self) -> BoolArray | None:
+        """Cells of which the prior says nothing, (R, C); see `unknown_cells`."""
+        own, drawn = self.prior_unknown, self.building.unknown
+        return cells_unknown(drawn if own is None else own, self.wall_cells, self.grid)
+
+    @cached_property
     def truth_cells(self) -> BoolArray:
         """Cells that are wall in truth, ndarray of bool of shape (R, C)."""
         return truth_cells(self.building.world, self.grid, self.settings.truth_share)
@@ -142,33 +156,25 @@ class MappingRun:
     @cached_property
     def calibrated(self) -> tuple[float, float]:
         """p_free of wall cells and of others; see `occsim.calibrated_prior`."""
-        return calibrated_prior(self.wall_cells, self.truth_cells)
+        known = slice(None) if self.unknown_cells is None else ~self.unknown_cells
+        return calibrated_prior(self.wall_cells[known], self.truth_cells[known])
 
     @cached_property
-    def _surfaces(self) -> dict[tuple[UpdateRule, Region], PriorSurface]:
+    def _kept(self) -> dict[tuple[object, ...], Any]:
         return {}
 
-    @cached_property
-    def _loss_surfaces(self) -> dict[tuple[UpdateRule, Region], LossSurface]:
-        return {}
-
-    @cached_property
-    def _fronts(self) -> dict[tuple[UpdateRule, Region, float, float], ParetoFront]:
-        return {}
+    def _surface(self, make: Callable[..., T], rule: UpdateRule, region: Region) -> T:
+        """Return a function of the prior pair; the same object each time."""
+        key, cells = (make, rule, region), (self.wall_cells, self.truth_cells)
+        if key not in self._kept:
+            rest = {"is_unknown": self.unknown_cells}
+            self._kept[key] = make(self.evidence, *cells, rule, region, **rest)
+        return self._kept[key]  # type: ignore[no-any-return]
 
     def prior_map(self, prior: Prior) -> PriorMap:
-        """Return the prior map, from which the map starts.
-
-        Parameters
-        ----------
-        prior : Prior
-            Values for wall cells and space cells.
-
-        Returns
-        -------
-        PriorMap
-        """
-        return prior_from_cells(self.wall_cells, self.grid, prior)
+        """Return the prior map, from which the map of a `Prior` starts."""
+        unknown = self.unknown_cells
+        return prior_from_cells(self.wall_cells, self.grid, prior, unknown)
 
     def map(
         self,
@@ -306,10 +312,7 @@ class MappingRun:
         PriorSurface
             The same object each time.
         """
-        key, cells = (rule, region), (self.wall_cells, self.truth_cells)
-        if key not in self._surfaces:
-            self._surfaces[key] = prior_surface(self.evidence, *cells, *key)
-        return self._surfaces[key]
+        return self._surface(prior_surface, rule, region)
 
     def sweep(
         self,
@@ -354,10 +357,10 @@ class MappingRun:
         ParetoFront
             The same object each time.
         """
-        key = rule, region, low, high
-        if key not in self._fronts:
-            self._fronts[key] = surface_front(self.surface(rule, region), low, high)
-        return self._fronts[key]
+        key = surface_front, rule, region, low, high
+        if key not in self._kept:
+            self._kept[key] = surface_front(self.surface(rule, region), low, high)
+        return self._kept[key]  # type: ignore[no-any-return]
 
     def loss_surface(
         self,
@@ -376,10 +379,7 @@ class MappingRun:
         LossSurface
             The same object each time.
         """
-        key, cells = (rule, region), (self.wall_cells, self.truth_cells)
-        if key not in self._loss_surfaces:
-            self._loss_surfaces[key] = loss_surface(self.evidence, *cells, *key)
-        return self._loss_surfaces[key]
+        return self._surface(loss_surface, rule, region)
 
     def best_in_bits(
         self,

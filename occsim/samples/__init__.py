@@ -103,6 +103,35 @@ def prior_drawing(building: Building, which: str = "own") -> BoolArray:
     return load_sample(which).wall_mask
 
 
+def prior_unknown(building: Building, which: str = "own") -> BoolArray | None:
+    """Return of which pixels the drawing that a prior is made from says nothing.
+
+    Parameters
+    ----------
+    building, which
+        As in `prior_drawing`.
+
+    Returns
+    -------
+    ndarray of bool, shape (H, W), or None
+        None where all is known: in a sample, a sheet without walls, and in most
+        drawings of one's own.
+
+    Examples
+    --------
+    >>> from occsim import load_sample
+    >>> from occsim.samples import prior_unknown
+    >>> prior_unknown(load_sample("c")) is None
+    True
+    """
+    unknown = building.unknown
+    if unknown is None or which == "own":
+        return unknown
+    if which == "mirrored":
+        return np.ascontiguousarray(unknown[:, ::-1])
+    return np.zeros_like(unknown)
+
+
 def drawings_of_size(shape: tuple[int, int]) -> tuple[str, ...]:
     """Return the names of the samples whose drawing has this height and width, px."""
     return tuple(n for n in sample_names() if load_sample(n).drawing.shape == shape)

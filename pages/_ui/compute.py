@@ -27,7 +27,7 @@ from occsim.imaging import Drawing
 from occsim.io.images import class_png
 from occsim.io.replay import MAX_ENTRIES
 from occsim.io.ros_map import RosMap, building_from_map
-from occsim.samples import OTHER_DRAWINGS, drawings_of_size
+from occsim.samples import OTHER_DRAWINGS, drawings_of_size, prior_unknown
 from occsim.sensor import most_cells_in_view
 from pages._ui import openings, palette
 from pages._ui.choices import PriorDrawing
@@ -232,8 +232,16 @@ def _prior_mask(digest: str, drawn: PriorKey, _building: Building) -> BoolArray:
 
 def with_errors(building: Building, settings: Settings) -> MappingRun:
     """A building mapped, the prior made from the drawing with its errors."""
-    mask = prior_mask(building, settings)
-    return mapped(building, settings.mapping).with_prior_mask(mask)
+    drawn = prior_key(building, settings)
+    return drawn_run(building, settings.mapping, drawn)
+
+
+def drawn_run(building: Building, mapping: MapSettings, drawn: PriorKey) -> MappingRun:
+    """A building mapped, the prior made from a drawing with errors."""
+    mask = drawn_mask(building, drawn)
+    source, _ = drawn
+    unknown = None if mask is None else prior_unknown(building, source.value)
+    return mapped(building, mapping).with_prior_mask(mask, unknown)
 
 
 def errors_picture(building: Building, settings: Settings) -> bytes:

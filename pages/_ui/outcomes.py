@@ -199,9 +199,7 @@ def _vote() -> str:
 def final_f2(building: Building, settings: Settings, column: Column) -> float:
     """F2 of the cells looked at after the last reading of one map among several."""
     drawn = compute.fitting(building, column.prior_drawing, settings.flaws)
-    run = compute.mapped(building, settings.mapping_of(column)).with_prior_mask(
-        compute.drawn_mask(building, drawn)
-    )
+    run = compute.drawn_run(building, settings.mapping_of(column), drawn)
     pair = Prior(p_wall=column.p_wall, p_space=column.p_space)
     prior = BLANK if column.uninformative else pair
     return run.scores(prior, column.rule).f2

@@ -112,8 +112,6 @@ def _counts(digest: str, settings: MapSettings, _building: Building) -> bytes:
 def _walls(
     digest: str, drawn: compute.PriorKey, settings: MapSettings, _building: Building
 ) -> bytes:
-    run = compute.mapped(_building, settings).with_prior_mask(
-        compute.drawn_mask(_building, drawn)
-    )
+    run = compute.drawn_run(_building, settings, drawn)
     with compute.core():
-        return pack_walls(run.wall_cells)
+        return pack_walls(run.wall_cells, run.unknown_cells)

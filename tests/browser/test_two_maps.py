@@ -175,7 +175,7 @@ def test_another_drawing_for_one_map_sends_its_walls_and_no_readings(page, app_u
     wait_until(
         page,
         player,
-        "root => root.player.columns[1].isWall !== root.player.columns[0].isWall",
+        "root => root.player.columns[1].drawn !== root.player.columns[0].drawn",
     )
     sizes = player.evaluate("root => root.player.header.sizes")
     kinds = player.evaluate("root => root.player.header.parts.map(({ kind }) => kind)")
@@ -192,7 +192,7 @@ def test_another_drawing_for_one_map_sends_its_walls_and_no_readings(page, app_u
     player.evaluate("root => { root.seen = root.player.loading; }")
     choose_word(player, 1, "drawing", "own")  # known: at once, without Python
     assert player.evaluate(
-        "root => root.player.columns[1].isWall === root.player.columns[0].isWall"
+        "root => root.player.columns[1].drawn === root.player.columns[0].drawn"
         " && root.seen === root.player.loading"
     )
     assert player.evaluate("root => Number(root.dataset.recolourMs)") < 300

@@ -35,7 +35,7 @@ const byHand = () =>
       ],
       [[0, -LN9]],
     ],
-    { isWall: [1, 0], truth: [1, 0] },
+    { drawn: [1, 0], truth: [1, 0] },
   );
 const handPrior = { p_wall: 0.5, p_space: 1, uninformative: false };
 
@@ -139,8 +139,8 @@ test("a cell's history adds up to its log-odds", () => {
 });
 
 test("after some laps a map is that of the same readings, repeated", () => {
-  const { replay, readings, isWall, truth } = randomReplay(3);
-  const thrice = replayOf(5, 6, 3, [...readings, ...readings, ...readings], { isWall, truth });
+  const { replay, readings, drawn, truth } = randomReplay(3);
+  const thrice = replayOf(5, 6, 3, [...readings, ...readings, ...readings], { drawn, truth });
   for (const state of STATES) {
     const laps = modelOf(replay, { ...state, laps: "3" });
     const all = modelOf(thrice, state);
@@ -164,7 +164,7 @@ test("one log serves all columns on it, each with its own prior", () => {
   const world = randomReplay(5);
   const log = player.newLog(world.replay);
   const columns = STATES.map((state) => {
-    const column = player.newColumn(log, world.replay.isWall, CONSTANTS);
+    const column = player.newColumn(log, world.replay.drawn, CONSTANTS);
     player.setPrior(column, state);
     return column;
   });
@@ -176,10 +176,10 @@ test("one log serves all columns on it, each with its own prior", () => {
 });
 
 // Of three wall cells one is free in truth, of five space cells four: (1 + 1) / (3 + 2)
-// and (4 + 1) / (5 + 2).
+// and (4 + 1) / (5 + 2). Of the last two cells the drawing says nothing.
 test("the calibrated pair is the smoothed share of each class that is free", () => {
-  const classes = { isWall: [1, 1, 1, 0, 0, 0, 0, 0], truth: [1, 0, 1, 0, 0, 1, 0, 0] };
-  const replay = replayOf(2, 4, 3, [[[0, 1]]], classes);
+  const classes = { drawn: [1, 1, 1, 0, 0, 0, 0, 0, 2, 2], truth: [1, 0, 1, 0, 0, 1, 0, 0, 1, 0] };
+  const replay = replayOf(2, 5, 3, [[[0, 1]]], classes);
   const model = modelOf(replay, { ...handPrior, calibrated: true, rule: "prior_once" });
   assert.deepEqual(model.pFreePrior, [5 / 7, 2 / 5]);
 });

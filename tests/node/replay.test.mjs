@@ -56,6 +56,9 @@ test("a scene is read as its layout says", () => {
 test("walls are read as their layout says", () => {
   const walls = bufferOf(Uint32Array.of(0x3257474f, 2, 3), Uint8Array.of(0b10010000));
   assert.deepEqual([...player.decodeWalls(walls)], [1, 0, 0, 1, 0, 0]);
+  const header = Uint32Array.of(0x3257474f, 2, 3);
+  const both = bufferOf(header, Uint8Array.of(0b10010000, 0b01000100));
+  assert.deepEqual([...player.decodeWalls(both)], [1, 2, 0, 1, 0, 2]);
 });
 
 test("beams are read as their layout says", () => {

@@ -39,14 +39,14 @@ function storyOf(changes = {}) {
   const world = randomReplay(1);
   const { replay } = world;
   const log = player.newLog(replay);
-  const walls = [replay.isWall, replay.isWall, replay.isWall.map((wall) => 1 - wall)];
+  const walls = [replay.drawn, replay.drawn, replay.drawn.map((said) => [1, 0, 2][said])];
   const state = { columns: SETTINGS.map((one) => ({ ...one })), step: 0, speed: 5, predicted: null, compact: true };
   const p = {
     root: { querySelector: () => ({}), focus: () => {} },
     scene: { nReadings: 40 },
     header: { constants: CONSTANTS, texts: { story: STORY }, hidden: [], locked: [] },
     logs: new Map(),
-    columns: walls.map((isWall) => player.newColumn(log, isWall, CONSTANTS)),
+    columns: walls.map((drawn) => player.newColumn(log, drawn, CONSTANTS)),
     state: { ...state, ...changes },
     playing: false,
     position: 0,
@@ -140,7 +140,7 @@ test("F2 under both rules is that of a naive fusion, whatever is shown now", () 
   player.finalF2(p).forEach((found, i) => {
     for (const rule of ["prior_once", "subtract_prior"]) {
       const pair = SETTINGS[i].uninformative ? { p_wall: 0.5 / 0.9, p_space: 0.5 / 0.9 } : SOURCE;
-      const own = { ...world, isWall: Array.from(walls[i]) };
+      const own = { ...world, drawn: Array.from(walls[i]) };
       const [tp, fp, fn] = naiveCounts(own, 40, { ...pair, rule }, "looked").counts;
       assert.equal(found[rule], (5 * tp) / (5 * tp + 4 * fn + fp), `${i} ${rule}`);
     }
@@ -161,10 +161,10 @@ test("F2 is shown before and after only where the drawing is counted again", () 
 test("the best is named by F2 with the drawing counted once, under either rule", () => {
   const logit = (q) => Math.log(q / (1 - q));
   const readings = [[[0, logit(0.6)], [1, logit(0.6)]]];
-  const replay = replayOf(1, 2, 1, readings, { isWall: [1, 0], truth: [1, 0] });
+  const replay = replayOf(1, 2, 1, readings, { drawn: [1, 0], truth: [1, 0] });
   const { p } = storyOf();
   const log = player.newLog(replay);
-  p.columns = [[1, 0], [1, 0], [0, 1]].map((isWall) => player.newColumn(log, isWall, CONSTANTS));
+  p.columns = [[1, 0], [1, 0], [0, 1]].map((drawn) => player.newColumn(log, drawn, CONSTANTS));
   assert.equal(player.bestOf(p), 1);
   p.finalF2 = null;
   for (const setting of p.state.columns) setting.rule = "subtract_prior";

@@ -12,7 +12,7 @@ const SUBTRACT = { ...ONCE, rule: "subtract_prior" };
 function pairOf(replay, settings) {
   const log = player.newLog(replay);
   return settings.map((setting) => {
-    const column = player.newColumn(log, replay.isWall, CONSTANTS);
+    const column = player.newColumn(log, replay.drawn, CONSTANTS);
     player.setPrior(column, setting);
     return column;
   });
@@ -26,7 +26,7 @@ test("the referee says which of two maps is right, by hand", () => {
     [0, 0],
     [1, 0],
   ];
-  const classes = { isWall: [1, 1, 0], truth: [1, 0, 0] };
+  const classes = { drawn: [1, 1, 0], truth: [1, 0, 0] };
   const [a, b] = pairOf(replayOf(1, 3, 2, [reading, reading], classes), [ONCE, SUBTRACT]);
   player.seek(a.log, 2);
   const comparison = player.newComparison(a, b, null);
@@ -41,7 +41,7 @@ test("the referee says which of two maps is right, by hand", () => {
 
 // One map has a reading of cell 0, the other of cell 1: neither is looked at by both.
 test("cells that one map looked at are not called not looked at", () => {
-  const classes = { isWall: [0, 0], truth: [0, 0] };
+  const classes = { drawn: [0, 0], truth: [0, 0] };
   const [a, b] = [0, 1].map((cell) => {
     const [column] = pairOf(replayOf(1, 2, 1, [[[cell, -1]]], classes), [ONCE]);
     player.seek(column.log, 1);
@@ -95,9 +95,9 @@ test("any walk through the steps keeps the count of a naive referee", () => {
 // nothing. The world is wall in the first column: 2 of the 4 pixels of that cell, so A is
 // right twice and B twice; the others agree. B was looked at, A only in that cell.
 test("maps of other cell sizes are judged pixel by pixel, against the world's pixels", () => {
-  const fine = { isWall: [0, 0, 0, 0], truth: [1, 0, 1, 0] };
+  const fine = { drawn: [0, 0, 0, 0], truth: [1, 0, 1, 0] };
   const a = columnOf(player, replayOf(2, 2, 2, [[[0, 3 * logit(0.1)]]], fine), ONCE);
-  const coarse = { isWall: [0], truth: [1] };
+  const coarse = { drawn: [0], truth: [1] };
   const b = columnOf(player, replayOf(1, 1, 4, [[[0, logit(0.9)]]], coarse), ONCE);
   const truth = Uint8Array.from({ length: 16 }, (_, u) => (u % 4 === 0 ? 1 : 0));
   const size = { heightPx: 4, widthPx: 4, cellPx: 1, nRows: 4, nCols: 4, nCells: 16 };
@@ -117,7 +117,7 @@ test("maps of other cell sizes are judged pixel by pixel, against the world's pi
 // logit(0.18) + ln 9, then 0.18 again; subtract: 0.18, 0.9, 0.82.
 test("a reading is one rung where the drawing is counted once, two where it is taken off", () => {
   const readings = [[[0, logit(0.9)]], [[0, logit(0.1)]]];
-  const replay = replayOf(1, 1, 3, readings, { isWall: [1], truth: [1] });
+  const replay = replayOf(1, 1, 3, readings, { drawn: [1], truth: [1] });
   const rungs = [ONCE, SUBTRACT].map((setting) => {
     const column = columnOf(player, replay, setting);
     return player.ladderOf(player.historyOf(column, 0), 1);

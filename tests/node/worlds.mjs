@@ -7,7 +7,7 @@ export const logit = (p) => Math.round(Math.log(p / (1 - p)) * 2 ** 36) / 2 ** 3
 
 // A map of a replay under a setting, as the player makes it.
 export function columnOf(player, replay, setting) {
-  const column = player.newColumn(player.newLog(replay), replay.isWall, CONSTANTS);
+  const column = player.newColumn(player.newLog(replay), replay.drawn, CONSTANTS);
   player.setPrior(column, setting);
   return column;
 }
@@ -15,7 +15,7 @@ export function columnOf(player, replay, setting) {
 export const CONSTANTS = { decisionEps: 1e-9, priorScale: 0.9 };
 
 // A replay from readings, each a list of [cell, log-odds].
-export function replayOf(nRows, nCols, cellPx, readings, { isWall, truth }) {
+export function replayOf(nRows, nCols, cellPx, readings, { drawn, truth }) {
   const indptr = [0];
   for (const reading of readings) indptr.push(indptr.at(-1) + reading.length);
   const poses = readings.flatMap((_, i) => [i, i, 0]);
@@ -30,7 +30,7 @@ export function replayOf(nRows, nCols, cellPx, readings, { isWall, truth }) {
     indptr: Uint32Array.from(indptr),
     cell: Uint32Array.from(readings.flat().map(([cell]) => cell)),
     logOdds: Float64Array.from(readings.flat().map(([, logOdds]) => logOdds)),
-    isWall: Uint8Array.from(isWall),
+    drawn: Uint8Array.from(drawn),
     truth: Uint8Array.from(truth),
     poses: Float32Array.from(poses),
     rangePx: 10,
@@ -50,7 +50,9 @@ export function randomReadings(seed, nReadings = 40, nCells = 30) {
 export function randomReplay(seed) {
   const random = seeded(seed + 1000);
   const flags = () => Array.from({ length: 30 }, () => (random() < 0.4 ? 1 : 0));
-  const classes = { isWall: flags(), truth: flags() };
+  // What the drawing says: 0 space, 1 wall, 2 nothing.
+  const drawn = flags().map((wall) => wall || (random() < 0.3 ? 2 : 0));
+  const classes = { drawn, truth: flags() };
   return {
     readings: randomReadings(seed),
     ...classes,
@@ -60,13 +62,13 @@ export function randomReplay(seed) {
 
 // One cell at a time, one reading after the other, as Table 9.1 of Probabilistic
 // Robotics is written: l_k = l_(k-1) + reading [- l_0].
-export function naiveLogOdds({ readings, isWall }, step, { p_wall, p_space, rule }) {
-  return isWall.map((wall, cell) => {
-    const l0 = logit(0.9 * (wall ? p_wall : p_space));
+export function naiveLogOdds({ readings, drawn }, step, { p_wall, p_space, rule }) {
+  return drawn.map((said, cell) => {
+    const l0 = [logit(0.9 * p_space), logit(0.9 * p_wall), 0][said];
     let l = l0;
     for (const reading of readings.slice(0, step)) {
-      for (const [c, said] of reading) {
-        if (c === cell) l += rule === "subtract_prior" ? said - l0 : said;
+      for (const [c, value] of reading) {
+        if (c === cell) l += rule === "subtract_prior" ? value - l0 : value;
       }
     }
     return l;

@@ -1,11 +1,11 @@
 """Project files: a building and the settings beside it, in one zip archive.
 
 The archive holds images as PNG (``drawing``, ``walls_found``, ``corrections``, and
-``truth`` where there is one), ``trajectory.csv`` and ``project.json`` with everything
-else: sketch, scale, sensor, the settings of wall detection, the settings of the
-application as text, versions. In ``corrections.png`` black is erased, white added and
-grey neither; ``walls.png``, the two together, is for people. Version 1 had no
-``corrections.png``: there the corrections are the difference between
+``unknown`` and ``truth`` where there are such), ``trajectory.csv`` and ``project.json``
+with everything else: sketch, scale, sensor, the settings of wall detection, the
+settings of the application as text, versions. In ``corrections.png`` black is erased,
+white added and grey neither; ``walls.png``, the two together, is for people. Version 1
+had no ``corrections.png``: there the corrections are the difference between
 ``walls_found.png`` and ``walls.png``.
 
 An archive is not trusted: only these names are read, never as paths, each within its

@@ -13,8 +13,9 @@ MAX_UNPACKED_BYTES = 100_000_000
 JSON_NAME, TRAJECTORY_NAME = "project.json", "trajectory.csv"
 DRAWING = "drawing.png"
 FOUND, CORRECTIONS, WALLS = "walls_found.png", "corrections.png", "walls.png"
+UNKNOWN = "unknown.png"
 TRUTH, OLD_TRUTH = "truth.png", "truth_base.png"
-IMAGES = (DRAWING, FOUND, CORRECTIONS, WALLS, TRUTH, OLD_TRUTH)
+IMAGES = (DRAWING, FOUND, CORRECTIONS, WALLS, UNKNOWN, TRUTH, OLD_TRUTH)
 LIMITS: Mapping[str, int] = {
     JSON_NAME: 4_000_000,
     TRAJECTORY_NAME: 8_000_000,

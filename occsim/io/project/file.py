@@ -27,6 +27,7 @@ from occsim.io.project.archive import (
     JSON_NAME,
     TRAJECTORY_NAME,
     TRUTH,
+    UNKNOWN,
     WALLS,
     ProjectError,
     check_images,
@@ -105,8 +106,9 @@ def dump_project(project: Project) -> bytes:
         WALLS: mask_png(building.wall_mask),
         TRAJECTORY_NAME: dump_trajectory(building.trajectory, TrajectoryFormat.CSV),
     }
-    if building.truth is not None:
-        files[TRUTH] = mask_png(building.truth)
+    for name, mask in ((UNKNOWN, building.unknown), (TRUTH, building.truth)):
+        if mask is not None:
+            files[name] = mask_png(mask)
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
@@ -198,6 +200,7 @@ def _project(files: Mapping[str, bytes]) -> Project:
         trajectory=trajectory,
         found=found,
         corrections=_corrections(files, found, values.version),
+        unknown=_mask(files, UNKNOWN) if UNKNOWN in files else None,
         truth=_mask(files, TRUTH) if TRUTH in files else None,
         tour=trajectory if values.is_planned else None,
         **values.parts,

@@ -36,8 +36,8 @@ def building_from_map(
     Returns
     -------
     Building
-        With the map's scale. The tour keeps out of what is unknown; the sensor sees
-        through it, for nothing is known to stand there.
+        With the map's scale, and with what it does not know. The tour keeps out of
+        that; the sensor sees through it, for nothing is known to stand there.
 
     Raises
     ------
@@ -58,13 +58,14 @@ def building_from_map(
     expect("ros_map", ros_map, RosMap)
     fit = Transform.fit(ros_map.values.shape, working_px)
     walls = fit.mask(ros_map.is_occupied)
-    closed = walls | fit.mask(ros_map.is_unknown)
+    unknown = fit.mask(ros_map.is_unknown)
     scale = ros_map.resolution_m / fit.scale
     sensor = Sensor(range_px=RANGE_M / scale)
-    tour = default_tour(World(closed), sensor, max_readings=TOUR_READINGS)
+    tour = default_tour(World(walls | unknown), sensor, max_readings=TOUR_READINGS)
     return Building(
         drawing=fit.drawing(map_drawing(ros_map, name)),
         found=walls,
+        unknown=unknown if unknown.any() else None,
         trajectory=tour,
         sensor=sensor,
         metres_per_px=scale,

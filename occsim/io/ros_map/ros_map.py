@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, ShortRepr
 from occsim.errors import ParameterError, expect, real_number
-from occsim.grid import Grid, require_cover
+from occsim.grid import Grid, cells_of, require_cover
 from occsim.io.metric import MetricFrame
 from occsim.mapping import OccupancyMap
 from occsim.prior import PriorMap
@@ -118,7 +118,12 @@ class RosMap(ShortRepr):
         return cls._of_cells(occupancy_map.p_free, unknown, occupancy_map.grid, frame)
 
     @classmethod
-    def of_prior(cls, prior_map: PriorMap, frame: MetricFrame) -> Self:
+    def of_prior(
+        cls,
+        prior_map: PriorMap,
+        frame: MetricFrame,
+        is_unknown: BoolArray | None = None,
+    ) -> Self:
         """Return a prior of ours, one pixel a cell; one half is 50, not unknown.
 
         Parameters
@@ -127,14 +132,20 @@ class RosMap(ShortRepr):
             The prior.
         frame : MetricFrame
             Where the drawing lies.
+        is_unknown : ndarray of bool, shape (R, C), optional
+            Cells of which the drawing says nothing: unknown in the map too. None by
+            default.
 
         Returns
         -------
         RosMap
         """
         expect("prior_map", prior_map, PriorMap)
-        unknown = np.zeros(prior_map.grid.shape, dtype=np.bool_)
-        return cls._of_cells(prior_map.p_free, unknown, prior_map.grid, frame)
+        grid = prior_map.grid
+        unknown = np.zeros(grid.shape, dtype=np.bool_)
+        if is_unknown is not None:
+            unknown = cells_of("is_unknown", is_unknown, grid)
+        return cls._of_cells(prior_map.p_free, unknown, grid, frame)
 
     @classmethod
     def _of_cells(

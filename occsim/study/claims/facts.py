@@ -12,10 +12,16 @@ from occsim.building import Building
 from occsim.evidence import collect_evidence
 from occsim.evidence_log import EvidenceLog, EvidenceTotals
 from occsim.flaws import DrawingFlaws, flawed_mask
-from occsim.logodds import is_occupied, logit
+from occsim.logodds import is_occupied
 from occsim.mapping import UpdateRule, prior_weight
 from occsim.metrics import f_beta_of, precision_of, recall_of
-from occsim.prior import PRIOR_SCALE, SOURCE_PAIR, Prior, prior_from_cells
+from occsim.prior import (
+    PRIOR_SCALE,
+    SOURCE_PAIR,
+    Prior,
+    prior_from_cells,
+    unknown_cells,
+)
 from occsim.priors import (
     SOURCE_AXIS,
     Maxima,
@@ -75,6 +81,8 @@ class Facts:
         Of the truth.
     cost_ratio : float
         Time of a step with an informative prior, over that with a blank one.
+    is_unknown : ndarray of bool, shape (R, C), optional
+        Cells of which the prior says nothing; none by default.
     """
 
     condition: Condition
@@ -83,12 +91,17 @@ class Facts:
     truth: BoolArray
     openings: Openings
     cost_ratio: float
+    is_unknown: BoolArray | None = None
 
     @cached_property
     def surface(self) -> PriorSurface:
         """True and false positives of every prior pair."""
         rule, region = self.condition.rule, self.condition.region
-        return prior_surface(self.totals, self.is_wall, self.truth, rule, region)
+        cells = self.is_wall, self.truth
+        unknown = self.is_unknown
+        return prior_surface(
+            self.totals, *cells, rule, region, PRIOR_SCALE, is_unknown=unknown
+        )
 
     @cached_property
     def sweep(self) -> PriorSweep:
@@ -144,8 +157,12 @@ class Facts:
 
     def declared(self, p_wall: float, p_space: float) -> BoolArray:
         """Return the cells that the map of a pair declares wall, (R, C)."""
-        levels = logit([PRIOR_SCALE * p_space, PRIOR_SCALE * p_wall])
-        prior = levels[self.is_wall.astype(np.intp)]
+        prior = prior_from_cells(
+            self.is_wall,
+            self.totals.grid,
+            Prior(p_wall=p_wall, p_space=p_space),
+            self.is_unknown,
+        ).log_odds
         weight = prior_weight(self.totals.counts, self.condition.rule)
         return is_occupied(self.totals.sums + weight * prior)
 
@@ -190,6 +207,7 @@ class _Case:
         self.log = lru_cache(self._log)
         self.totals = lru_cache(self._totals)
         self.walls = lru_cache(self._walls)
+        self.unknown = lru_cache(self._unknown)
         self.cost_ratio = lru_cache(self._cost_ratio)
 
     def facts(self, condition: Condition) -> Facts:
@@ -199,6 +217,7 @@ class _Case:
             condition=condition,
             totals=self.totals(*seen, condition.readings),
             is_wall=self.walls(condition.walls),
+            is_unknown=self.unknown(condition.walls),
             truth=self.truth,
             openings=self.openings,
             cost_ratio=self.cost_ratio(*seen, condition.rule),
@@ -227,6 +246,11 @@ class _Case:
             return self.truth
         flaws = DrawingFlaws(thickness_px=-walls.thinned_px)
         return wall_cells(flawed_mask(self.building.wall_mask, flaws), self.grid)
+
+    def _unknown(self, walls: Walls) -> BoolArray | None:
+        if walls is Walls.TRUE:
+            return None
+        return unknown_cells(self.building.unknown, self.walls(walls), self.grid)
 
     def _cost_ratio(
         self, behind_hit: BehindHit, reach: Reach, rule: UpdateRule

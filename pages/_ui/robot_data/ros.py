@@ -124,7 +124,8 @@ def _uses(name: str, ros_map: RosMap) -> None:
                 _as_drawing,
                 "A new building. The occupied pixels become its drawing and its world, "
                 "the scale is known, and a tour of the free space is planned. Unknown "
-                "pixels are not walls, and the tour avoids them.",
+                "pixels are not walls, and the tour avoids them; a prior made of this "
+                "drawing is one half there.",
             ),
             (
                 "Use as ground truth",
@@ -136,8 +137,8 @@ def _uses(name: str, ros_map: RosMap) -> None:
                 "Use as prior",
                 _as_prior,
                 "The walls of the prior, instead of those found in the open drawing, "
-                "which must have the same size. Unknown pixels are not walls, so their "
-                "cells start from p_space.",
+                "which must have the same size. Cells that are unknown for the half or "
+                "more stay unknown: they start from one half, whatever p_space is.",
             ),
         )
         for label, use, about in uses:
@@ -168,7 +169,11 @@ def _as_truth(name: str, ros_map: RosMap) -> None:
 def _as_prior(name: str, ros_map: RosMap) -> None:
     shape = state.building().drawing.shape
     walls = mask_of_size(ros_map.is_occupied, shape)
-    state.edit_building(found=walls, corrections=Corrections.none(shape))
+    unknown = (
+        mask_of_size(ros_map.is_unknown, shape) if ros_map.is_unknown.any() else None
+    )
+    nothing = Corrections.none(shape)
+    state.edit_building(found=walls, unknown=unknown, corrections=nothing)
 
 
 def _frame(building: Building, metres_per_px: float) -> MetricFrame:
@@ -203,7 +208,7 @@ def _out() -> None:
     )
     for label, ros_map, name in (
         ("Map", RosMap.of_map(occupancy_map, frame), "map"),
-        ("Prior", RosMap.of_prior(prior_map, frame), "prior"),
+        ("Prior", RosMap.of_prior(prior_map, frame, run.mapped.unknown_cells), "prior"),
     ):
         _downloads(label, ros_map, name)
     st.caption(

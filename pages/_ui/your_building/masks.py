@@ -1,5 +1,6 @@
 """Sections 4 and 5: walls corrected by hand, and the ground truth."""
 
+from functools import partial
 from typing import Any
 
 import streamlit as st
@@ -42,6 +43,7 @@ def correct() -> None:
             disabled=building.corrections.is_empty,
             width="stretch",
         )
+        _unknown()
         agreement()
         with st.expander("Leave a false wall in: will the map show it?"):
             st.markdown(
@@ -49,6 +51,23 @@ def correct() -> None:
                 "reading outweighs the prior. Where it never looks, the error stays."
             )
         _download(building.wall_mask, "walls.png", "Wall mask (PNG)")
+
+
+def _unknown() -> None:
+    """Say of how much the drawing, a robot's map, says nothing; let it be forgotten."""
+    unknown = state.building().unknown
+    if unknown is None:
+        return
+    st.caption(
+        f"The robot's map is unknown in {words.percent(float(unknown.mean()))} of the "
+        "pixels. The prior is one half there, unless you draw a wall."
+    )
+    st.button(
+        "Take unknown for free space",
+        on_click=state.edit,
+        args=(partial(state.edit_building, unknown=None),),
+        width="stretch",
+    )
 
 
 def _discard() -> None:

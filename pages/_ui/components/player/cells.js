@@ -67,8 +67,8 @@ function colourAt(inks, column, c) {
   return (isMarked(inks.overlay, column, c) ? inks.tinted : inks.grey)[level];
 }
 
-function isMarked(overlay, { isWall, log }, c) {
-  if (overlay === "wall_mask") return isWall[c];
+function isMarked(overlay, { drawn, log }, c) {
+  if (overlay === "wall_mask") return drawn[c] === WALL;
   return overlay === "truth" && log.truth[c];
 }
 

@@ -104,11 +104,13 @@ function factsIn(p, view, cell) {
   return cellFacts(p, p.columns[view.column], cell);
 }
 
+const CLASSES = { [SPACE]: "space cell", [WALL]: "wall cell", [UNKNOWN]: "unknown on the drawing" };
+
 function cellFacts({ header }, column, c) {
   const logOdds = logOddsAt(column, c);
   const { truth, counts } = column.log;
   const known = [];
-  if (header.hasPrior) known.push(["class", column.isWall[c] ? "wall cell" : "space cell"]);
+  if (header.hasPrior) known.push(["class", CLASSES[column.drawn[c]]]);
   if (header.hasTruth) known.push(["truth", truth[c] ? "wall" : "free"]);
   const declared = ["declared", declaresWall(column, logOdds) ? "wall" : "no wall"];
   if (column.log.coded) {
@@ -117,7 +119,7 @@ function cellFacts({ header }, column, c) {
   }
   return [
     ...known,
-    ["prior p_free", column.pFreePrior[column.isWall[c]].toFixed(3)],
+    ["prior p_free", pFreeOf(priorOf(column, c)).toFixed(3)],
     ["readings k", String(column.laps * counts[c])],
     ["log-odds l", signed(logOdds, 3)],
     declared,

@@ -6,7 +6,10 @@
 // each reading came n times: n S and n k stand for S and k.
 //
 // A *log* holds the readings and their sums at a step; columns share it. A *column* is
-// one map: a log, the wall cells of its prior, the prior and the update rule.
+// one map: a log, what its drawing says of each cell (SPACE, WALL or UNKNOWN), the prior
+// and the update rule.
+
+const [SPACE, WALL, UNKNOWN] = [0, 1, 2];
 
 function newLog(evidence) {
   const sums = new Float64Array(evidence.nCells);
@@ -14,9 +17,9 @@ function newLog(evidence) {
   return { ...evidence, ...linkEntries(evidence), sums, counts, step: 0 };
 }
 
-function newColumn(log, isWall, { decisionEps, priorScale, declared }) {
-  const prior = { pFreePrior: [0.5, 0.5], logOddsPrior: [0, 0], once: true };
-  return { log, isWall, laps: 1, ...prior, decisionEps, priorScale, declared };
+function newColumn(log, drawn, { decisionEps, priorScale, declared }) {
+  const prior = { pFreePrior: [0.5, 0.5], logOddsPrior: [0, 0, 0], once: true };
+  return { log, drawn, laps: 1, ...prior, decisionEps, priorScale, declared };
 }
 
 // Per entry, the state of its cell before it: the sum, the number and the last entry.
@@ -57,10 +60,11 @@ function beamsOf(log, c) {
   return { hits, visits };
 }
 
-// By class: the value of space cells, then that of wall cells.
+// By class: the value of space cells, then that of wall cells. Cells of which the drawing
+// says nothing start from one half, log-odds 0.
 function setPrior(column, setting) {
   column.pFreePrior = pairOf(column, setting);
-  column.logOddsPrior = column.pFreePrior.map(logit);
+  column.logOddsPrior = [...column.pFreePrior.map(logit), 0];
   column.once = setting.rule === "prior_once";
   column.laps = Number(setting.laps ?? 1);
 }
@@ -73,14 +77,15 @@ function pairOf(column, { p_wall, p_space, uninformative, calibrated }) {
 
 // As occsim.calibrated_prior: the share of each class that is free in truth, smoothed by
 // Laplace's rule so that neither 0 nor 1 occurs.
-function calibratedPair({ isWall, log: { truth, nCells } }) {
+function calibratedPair({ drawn, log: { truth, nCells } }) {
   const [free, all] = [
     [1, 1],
     [2, 2],
   ];
   for (let c = 0; c < nCells; c++) {
-    all[isWall[c]]++;
-    if (!truth[c]) free[isWall[c]]++;
+    if (drawn[c] === UNKNOWN) continue;
+    all[drawn[c]]++;
+    if (!truth[c]) free[drawn[c]]++;
   }
   return free.map((n, i) => n / all[i]);
 }
@@ -102,7 +107,7 @@ function seek(log, step) {
   return [Math.min(from, to), Math.max(from, to)];
 }
 
-const priorOf = (column, c) => column.logOddsPrior[column.isWall[c]];
+const priorOf = (column, c) => column.logOddsPrior[column.drawn[c]];
 
 // A cell's log-odds from the sum and the number of its readings in one lap.
 function fused(column, c, sum, k) {

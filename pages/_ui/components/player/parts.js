@@ -79,9 +79,9 @@ function assembleColumns(p) {
   const before = p.columns ?? [];
   p.columns = p.state.columns.map((setting, i) => {
     const log = logOf(p, setting);
-    const isWall = partNamed(p, wallsName(setting));
-    const same = before[i]?.log === log && before[i].isWall === isWall;
-    return same ? before[i] : newColumn(log, isWall, p.header.constants);
+    const drawn = partNamed(p, wallsName(setting));
+    const same = before[i]?.log === log && before[i].drawn === drawn;
+    return same ? before[i] : newColumn(log, drawn, p.header.constants);
   });
   const inUse = new Set(p.columns.map(({ log }) => log));
   for (const [id, log] of p.logs) if (!inUse.has(log)) p.logs.delete(id);

@@ -41,9 +41,15 @@ function decodeLog(buffer) {
   return { ...grid, nReadings, ...expandRuns(...runs, nEntries), logOdds, truth };
 }
 
+// What the drawing says of each cell: 0 space, 1 wall, 2 nothing.
 function decodeWalls(buffer) {
   const [, nRows, nCols] = new Uint32Array(buffer, 0, 3);
-  return readerOf(buffer, 12).takeFlags(nRows * nCols);
+  const nCells = nRows * nCols;
+  const { takeFlags } = readerOf(buffer, 12);
+  const isWall = takeFlags(nCells);
+  if (buffer.byteLength === 12 + Math.ceil(nCells / 8)) return isWall;
+  const isUnknown = takeFlags(nCells);
+  return isWall.map((wall, c) => (isUnknown[c] ? 2 : wall));
 }
 
 // Ranges are shares of the reach; what says nothing is NOTHING, what reaches farther than

@@ -151,9 +151,9 @@ function f2Change(p, i) {
 
 // By map and rule, F2 of the cells looked at after all readings; worked out at the end.
 function finalF2(p) {
-  p.finalF2 ??= p.columns.map(({ log, isWall }, i) => {
+  p.finalF2 ??= p.columns.map(({ log, drawn }, i) => {
     const under = (rule) => {
-      const column = newColumn(log, isWall, p.header.constants);
+      const column = newColumn(log, drawn, p.header.constants);
       setPrior(column, { ...p.state.columns[i], rule });
       return FORMULAS.f2(scoreCurves(column).looked.counts.map((count) => count.at(-1)));
     };
