@@ -367,6 +367,17 @@ def test_controls_that_move_together_open_and_are_proven_at_one_value():
             load_exercise(TOGETHER.replace(old, new).encode())
 
 
+def test_an_exercise_needs_what_its_file_names_and_what_its_witness_moves():
+    plain = GOOD.replace('show = ["p_wall"]', 'needs = ["laps"]')
+    # It shows p_wall, or moves it; what it sets up and never moves it does not need.
+    for text, needs in ((GOOD, ("p_wall",)), (plain, ("laps", "p_wall"))):
+        assert load_exercise(text.encode()).needs == needs
+    drawn = load_exercise(DRAWS.encode(), prove=False)
+    assert set(drawn.needs) >= {*drawn.show, *drawn.lock, *drawn.hide}
+    with pytest.raises(ParameterError, match="no control called 'lap'"):
+        load_exercise(plain.replace("laps", "lap").encode())
+
+
 def test_an_exercise_can_be_read_without_its_proof():
     """To list many at once: what is refused by its proof alone is read."""
     bad = GOOD.replace("p_wall = 0.6 }", "p_wall = 0.3 }").encode()

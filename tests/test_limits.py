@@ -106,6 +106,31 @@ def test_an_exercise_without_a_list_holds_nothing():
     assert limits.of_exercise(exercise("says_nothing"), Settings()) == limits.NONE
 
 
+EVERYTHING = Limits(hidden=frozenset(NAMES), by="your teacher")
+
+
+@pytest.mark.parametrize("one", compute.exercises(), ids=lambda one: one.id)
+def test_a_class_that_holds_everything_leaves_an_exercise_what_it_needs(one):
+    own = limits.of_exercise(one, Settings())
+    both = limits.of_exercise(one, Settings(), EVERYTHING)
+    needed = {limits.OF_EXERCISES.get(name, name) for name in one.needs}
+    assert needed & both.hidden == needed & own.hidden
+    assert needed & both.locked == needed & own.locked
+    assert both.hidden >= set(NAMES) - needed
+    assert both.by == f"exercise {one.number} and your teacher"
+
+
+def test_a_class_locks_in_an_exercise_what_the_exercise_does_not_need():
+    """Exercise 22 names the laps and the rule; 10 locks the rule, and shows p_wall."""
+    of_class = Limits(locked=frozenset({"rule", "p_wall"}), by="your teacher")
+    laps = limits.of_exercise(exercise("drive_it_again"), Settings(), of_class)
+    assert (laps.locked, laps.hidden) == ({"p_wall"}, frozenset())
+    # Nothing is hidden by the class: the count of hidden controls is not its doing.
+    assert laps.by == "exercise 22"
+    control = limits.of_exercise(exercise("run_the_control"), Settings(), of_class)
+    assert control.locked == {"rule", "uninformative"}
+
+
 # --- The player -----------------------------------------------------------------------
 
 
@@ -135,6 +160,23 @@ def test_an_edited_link_does_not_move_what_an_exercise_holds():
     assert settings.cell_px == 3
     assert settings.p_wall == 0.6  # shown, so free to be moved
     assert app.session_state["choice"] == "d"
+
+
+def test_what_a_class_holds_opens_in_an_exercise_as_the_exercise_does():
+    """The class has p_wall at 0.6; exercise 22 opens with 0.2 and does not need it."""
+    held = Prepared(
+        page=TWO_MAPS, texts={"p_wall": "0.6"}, hide=("p_space",), lock=("p_wall",)
+    )
+    link = {"p_wall": "0.4", "p_space": "0.4", "rule": "subtract_prior"}
+    app = at(TWO_MAPS, plan=packed(held), exercise="drive_it_again", **link)
+    settings = app.session_state["settings"]
+    assert (settings.p_wall, settings.p_space) == (0.2, 0.9)
+    assert settings.rule is UpdateRule.SUBTRACT_PRIOR
+    [words] = [text for text in said(app.caption) if "hidden by" in text]
+    assert words == "1 control is hidden by exercise 22 and your teacher."
+    leave = next(one for one in app.button if one.label == "Leave the exercise")
+    leave.click().run()
+    assert app.session_state["settings"].p_wall == 0.6
 
 
 def test_an_event_of_the_player_does_not_move_what_is_locked():

@@ -114,6 +114,9 @@ class Exercise:
         and outputs that are not seen.
     together : tuple of str
         Controls that always have the same value: one that is moved moves all.
+    needs : tuple of str
+        Controls that it cannot do without: all that ``[controls]`` names and all that
+        the witness moves. A class that holds a control leaves it to the exercise.
     draw : Draw or None
         What is drawn by lot; `with_draw` gives the exercise with a value of it.
     prediction : Question or None
@@ -148,6 +151,7 @@ class Exercise:
     lock: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     together: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
     draw: Draw | None = None
     prediction: Question | None = None
     questions: tuple[Question, ...] = ()

@@ -19,8 +19,8 @@ from occsim.exercises.exercise import (
 )
 from occsim.exercises.facts import GROUPS, Context, Readings, is_fact, simulated
 from occsim.exercises.grammar import Tree, names_of, parse
-from occsim.exercises.proof import POINTED, run_proof
-from occsim.exercises.sound import require_controls, require_sound
+from occsim.exercises.proof import POINTED, moved_by_witness, run_proof
+from occsim.exercises.sound import CONTROL_KEYS, require_controls, require_sound
 from occsim.exercises.state import FLAWS, SETTINGS, ExerciseState, changed
 
 MAX_BYTES = 100_000
@@ -42,11 +42,11 @@ PAGES = (
 CONTROLS = (
     *(name for name in SETTINGS if name not in (*POINTED, "step")),
     *FLAWS,
-    *("transport", "errors", "scores", "ladder"),
+    *("transport", "errors", "laps", "study_rule", "scores", "ladder"),
 )
 """What can be shown, locked and hidden: settings, the transport of the replay, the
-errors shown on the map; and two outputs, which vanish only where they are hidden: the
-scores, and a cell's readings one by one."""
+errors shown on the map, the laps of a tour, the rule of the study; and two outputs,
+which vanish only where they are hidden: the scores, a cell's readings one by one."""
 _KEYS = {
     *("id", "title", "lesson", "minutes", "page", "goal", "open", "other", "lineup"),
     *("setup", "controls", "predict", "question", "reason", "check", "near_miss"),
@@ -179,6 +179,7 @@ def _exercise(given: Mapping[str, Any], name: str) -> Exercise:
         lock=_names(controls, "lock"),
         hide=_names(controls, "hide"),
         together=_together(controls, settings),
+        needs=_needs(controls, _table(given, "proof")),
         draw=_draw(_table(given, "draw")),
         prediction=_question(given.get("predict"), "predict"),
         questions=tuple(
@@ -241,6 +242,12 @@ def _names(controls: Mapping[str, Any], key: str) -> tuple[str, ...]:
                 f"{', '.join(CONTROLS)}"
             )
     return tuple(names)
+
+
+def _needs(controls: Mapping[str, Any], proof: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the controls that a file names, and those that its witness moves."""
+    named = [name for key in CONTROL_KEYS for name in _names(controls, key)]
+    return tuple(dict.fromkeys([*named, *moved_by_witness(proof)]))
 
 
 def _together(

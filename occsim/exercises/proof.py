@@ -13,6 +13,21 @@ POINTED = ("cell", "lens_cell", "lens_pose")
 """Settings without a control of their own: one points at the map."""
 
 
+def moved_by_witness(proof: Mapping[str, Any]) -> list[str]:
+    """Return the controls that a proof's witnesses move, of whatever is drawn."""
+    each = [proof, *(one for one in proof.values() if isinstance(one, dict))]
+    witnesses = [one for table in each for one in _states(table, "witness")]
+    return [control for one in witnesses for control in _controls_of(one)]
+
+
+def _controls_of(witness: Mapping[str, Any]) -> list[str]:
+    """Return the controls by which one reaches a witness."""
+    moved = [name for name in witness if name in (*SETTINGS, *FLAWS)]
+    return [
+        "transport" if name == "step" else name for name in moved if name not in POINTED
+    ]
+
+
 def run_proof(made: Exercise, proof: Mapping[str, Any], readings: Readings) -> None:
     """Prove an exercise; one that draws a setting, for each of its values."""
     if made.draw is None:
@@ -70,10 +85,7 @@ def _solves(
 
 def _require_reachable(made: Exercise, witness: Mapping[str, Any]) -> None:
     """Check that every control that the witness moves is shown and not locked."""
-    for name in witness:
-        if name not in (*SETTINGS, *FLAWS) or name in POINTED:
-            continue
-        control = "transport" if name == "step" else name
+    for control in _controls_of(witness):
         if control in made.lock:
             raise ParameterError(f"the witness moves {control}, which is locked")
         is_hidden = made.show and control not in made.show

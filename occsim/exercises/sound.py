@@ -14,7 +14,7 @@ LAST_LESSON = 9
 MAX_OPTION = 200
 """Most characters of an option; a progress holds what was chosen."""
 MAX_QUESTIONS = 20
-CONTROL_KEYS = ("show", "lock", "hide", "together")
+CONTROL_KEYS = ("show", "lock", "hide", "together", "needs")
 
 
 def require_controls(controls: Mapping[str, Any]) -> None:

@@ -183,12 +183,20 @@ def each(names: Iterable[str]) -> frozenset[str]:
     return frozenset(one for name in names for one in GROUPS.get(name, (name,)))
 
 
-def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
-    """Return the limits of an exercise that opens with some settings."""
-    shown = _ours(exercise.show)
+def of_exercise(
+    exercise: Exercise, settings: Settings, of_class: Limits = NONE
+) -> Limits:
+    """Return the limits of an exercise that opens with some settings.
+
+    Where the exercise needs a control, its file alone decides about it. On every other
+    control the class's limits hold as well, at the value with which the exercise opens.
+    """
     locked = _ours(exercise.lock)
-    others = _OF_THE_MAP - shown - locked if exercise.show else frozenset()
-    hidden = others | told_by(exercise)
+    others = _OF_THE_MAP - _ours(exercise.show) - locked if exercise.show else set()
+    needed, hidden = _ours(exercise.needs), told_by(exercise) | others
+    also_hidden = of_class.hidden - needed - hidden
+    by = [f"exercise {exercise.number}", of_class.by]
+    hidden, locked = hidden | also_hidden, locked | (of_class.locked - needed)
     together = tuple(OF_EXERCISES.get(name, name) for name in exercise.together)
     if not hidden | locked and not together:
         return NONE
@@ -199,7 +207,7 @@ def of_exercise(exercise: Exercise, settings: Settings) -> Limits:
         settings=settings,
         drawing=exercise.setup.drawing if is_held else "",
         together=together,
-        by=f"exercise {exercise.number}",
+        by=" and ".join(by if also_hidden else by[:1]),
     )
 
 

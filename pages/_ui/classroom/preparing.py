@@ -25,8 +25,8 @@ def section() -> None:
     st.markdown(
         "Set a page up as your students should find it, come back here, and make a "
         "link. What you lock stays as it is, whatever a student changes in the link; "
-        "what you hide stays as it is as well. Maps and scores stay on the page unless "
-        "you hide them."
+        "what you hide stays as it is as well. An exercise keeps the controls that it "
+        "needs. Maps and scores stay on the page unless you hide them."
     )
     own_files.section()
     with st.container(horizontal=True):

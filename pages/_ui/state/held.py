@@ -77,10 +77,15 @@ def class_now() -> Prepared | None:
 
 
 def limits() -> Limits:
-    """The limits of the exercise that is open, otherwise those of the class."""
-    exercise, prepared = active(), class_now()
-    if exercise is not None:
-        return rules.of_exercise(exercise, openings.of_exercise(exercise))
+    """The limits of the class, and of the exercise that is open in it."""
+    exercise, of_class = active(), _limits_of_class()
+    if exercise is None:
+        return of_class
+    return rules.of_exercise(exercise, openings.of_exercise(exercise), of_class)
+
+
+def _limits_of_class() -> Limits:
+    prepared = class_now()
     if prepared is None or not (prepared.hide or prepared.lock):
         return NONE
     hidden, locked = rules.each(prepared.hide), rules.each(prepared.lock)
