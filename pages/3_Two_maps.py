@@ -4,6 +4,7 @@ import streamlit as st
 
 from occsim import OccsimError
 from pages._ui import (
+    beams_lesson,
     controls,
     lessons,
     limits,
@@ -63,3 +64,4 @@ with shell.page(PATH) as here:
     with st.container(key="map_words"):
         lessons.beside(PATH, number=5)
         noise_lesson.section()
+        beams_lesson.section()

@@ -225,6 +225,7 @@ GOOD = {
     },
     "collect_evidence": ASKED,
     "collect_totals": ASKED,
+    "beam_distances": {**ASKED, "n_beams": [2, 3]},
     "stream_evidence": ASKED,
     "coverage": {"occupancy_map": MAP},
     "dominates": {"better": [0.5, 0.5], "worse": [0.5, 0.4]},

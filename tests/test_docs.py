@@ -78,6 +78,18 @@ def test_there_are_five_how_tos_and_each_names_its_notebook(site):
         assert f'href="{name}.ipynb"' in page
 
 
+def test_the_convergence_of_beams_is_plotted_by_the_page_that_shows_it(site):
+    """The line falls, as the distances do that the page's code computes."""
+    page = (site / "how-to" / "3_own_scans.html").read_text("utf-8")
+    assert re.search(r'<img\b[^>]*src="beams.svg"', page)
+    svg = (site / "how-to" / "beams.svg").read_text("utf-8")
+    lines = re.findall(r'<path d="(M [^"]*?)" clip-path', svg)
+    points = [re.findall(r"[ML] (-?[\d.]+) (-?[\d.]+)", line) for line in lines]
+    (heights,) = ([float(y) for _, y in one] for one in points if len(one) == 4)
+    assert heights == sorted(heights)  # y of SVG points down
+    assert heights[-1] - heights[0] > 50
+
+
 @pytest.mark.filterwarnings("default")  # of distributed, as its cluster closes
 @pytest.mark.parametrize("name", HOW_TOS)
 def test_the_notebook_of_a_how_to_runs_and_prints_what_the_page_says(

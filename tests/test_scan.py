@@ -19,6 +19,7 @@ from occsim import (
     Trajectory,
     TrajectoryError,
     World,
+    beam_distances,
     build_prior,
     collect_evidence,
     evidence_from_scans,
@@ -233,24 +234,46 @@ BEAMS = (30, 90, 361, 1441)
 
 
 def distances_to_exact(name, behind_hit):
-    """Mean over looked-at cells of the map's distance to the exact one, in bits.
+    """Views of 360 degrees and 100 px along the sample's trajectory, 3 px cells.
 
-    Views of 360 degrees and 100 px along the sample's trajectory, 3 px cells, p_free
-    apart: with 30 beams a sector is 21 px wide at the rim, with 1441 not half a pixel.
+    With 30 beams a sector is 21 px wide at the rim, with 1441 not half a pixel.
     """
     sample = load_sample(name)
     sensor = Sensor(range_px=100, fov_rad=2 * np.pi, behind_hit=behind_hit)
     poses = Trajectory(sample.trajectory.poses[::6])
-    grid = sample.world.grid(3)
-    exact = collect_evidence(sample.world, poses, sensor, grid)
-    sums, counts = exact.totals()
-    looked_at = counts > 0
-    far = []
-    for n_beams in BEAMS:
-        log = simulate_scans(sample.world, poses, sensor, n_beams)
-        found, _ = evidence_from_scans(log, sensor, grid).totals()
-        far.append(float(np.abs(found - sums)[looked_at].sum() / counts.sum()))
-    return far
+    return beam_distances(sample.world, poses, sensor, sample.world.grid(3), BEAMS)
+
+
+def test_the_distance_to_exact_readings_is_that_of_all_cells_for_an_update():
+    """By hand: one beam ahead, at the wall pixel 3 px away, stands for the whole view.
+
+    The world is 7 x 7 px, one wall pixel at row 3, column 6; the robot at column 3.
+    Cells of one pixel say 0.9 or 0.1: ln 9 or -ln 9. What the beam calls occupied and
+    the exact reading free, or the reverse, is 2 ln 9 apart.
+    """
+    occupied = np.zeros((7, 7), dtype=bool)
+    occupied[3, 6] = True
+    world, grid = World(occupied), World(occupied).grid(1)
+    sensor, poses = Sensor(range_px=6, fov_rad=np.pi / 2), Trajectory([[3.5, 3.5, 0.0]])
+    exact = {
+        cell: p for cell, p in readings(collect_evidence(world, poses, sensor, grid))[0]
+    }
+    log = simulate_scans(world, poses, sensor, 1)
+    (one,) = readings(evidence_from_scans(log, sensor, grid))
+    wrong = [cell for cell, p in one if p != exact[cell]]
+    assert wrong
+    expected = 2 * np.log(9) * len(wrong) / len(exact)
+    found = beam_distances(world, poses, sensor, grid, [1, 1000])
+    assert found == pytest.approx([expected, 0.0])
+
+
+def test_a_robot_that_sees_no_cell_has_no_distance():
+    world = World(np.zeros((5, 5), dtype=bool))
+    far = Trajectory([[-50.0, 2.0, 0.0]])
+    found = beam_distances(world, far, Sensor(range_px=3), world.grid(1), [1, 2])
+    assert np.isnan(found).all()
+    with pytest.raises(ParameterError, match="n_beams must hold one number or more"):
+        beam_distances(world, far, Sensor(range_px=3), world.grid(1), [])
 
 
 @pytest.mark.parametrize("behind_hit", BehindHit)

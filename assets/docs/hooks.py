@@ -2,12 +2,17 @@
 
 The reference has one page for each room of the library, with all that `occsim` exports
 from it, so that a new name needs no line here. The model, the decisions and the guides
-for teachers are the files beside this one. Each how-to has a notebook made from it.
+for teachers are the files beside this one. Each how-to has a notebook made from it. A
+picture that a how-to shows is the one that its own code saves.
 """
 
 import ast
 import json
+import os
 import re
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -110,6 +115,26 @@ def notebook(how_to: str) -> str:
     return json.dumps(content, indent=1)
 
 
+def pictures(how_to: str) -> dict[str, bytes]:
+    """Return the pictures that the code of a how-to saves, by name.
+
+    The code of a how-to that shows none is not run.
+    """
+    shown = re.findall(r"!\[[^]]*\]\(([\w.]+\.svg)\)", how_to)
+    if not shown:
+        return {}
+    code = [one["source"] for one in cells(how_to) if one["cell_type"] == "code"]
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(
+            [sys.executable, "-c", "\n\n".join(code)],
+            cwd=folder,
+            env=os.environ | {"PYTHONPATH": str(ROOT)},
+            stdout=subprocess.DEVNULL,
+            check=True,
+        )
+        return {name: (Path(folder) / name).read_bytes() for name in shown}
+
+
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
     """Complete the navigation."""
     how_tos = sorted(path.name for path in HOW_TOS.glob("*.md"))
@@ -133,6 +158,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         name = f"how-to/{path.stem}.ipynb"
         content = notebook(path.read_text("utf-8"))
         files.append(File.generated(config, name, content=content))
+        for name, picture in pictures(path.read_text("utf-8")).items():
+            files.append(File.generated(config, f"how-to/{name}", content=picture))
     beside = [*HERE.glob("*.md"), *HERE.glob("teaching/**/*.*")]
     for path in beside:
         name = path.relative_to(HERE).as_posix()

@@ -6,6 +6,7 @@ one for each pixel.
 """
 
 from occsim.scan.cell_model import BeamCounts, HitsVisits, beam_counts, hits_visits
+from occsim.scan.convergence import beam_distances
 from occsim.scan.evidence import evidence_from_scans
 from occsim.scan.log import Scan, ScanLog
 from occsim.scan.mapper import Mapper
@@ -23,6 +24,7 @@ __all__ = [
     "ScanLog",
     "ScanNoise",
     "beam_counts",
+    "beam_distances",
     "evidence_from_scans",
     "hits_visits",
     "simulate_scans",
