@@ -19,9 +19,8 @@ from occsim.rays.scan import (
     CountArray,
     Windows,
     count_pixels,
-    empty_polygons,
-    view_polygons,
-    windows_around,
+    seen_polygons,
+    windows_of,
 )
 from occsim.rays.surface import count_surface, own_pixels
 from occsim.sensor import BehindHit, Sensor, inverse_sensor_model
@@ -229,9 +228,7 @@ def logged(
     EvidenceLog
     """
     for counts in batches:
-        sizes, cell, log_odds = _entries(counts)
-        grid = counts.windows.grid
-        yield EvidenceLog.known_sound(grid, _ends(sizes), cell, log_odds)
+        yield EvidenceLog.known_sound(counts.windows.grid, *_entries(counts))
         if on_progress is not None:
             on_progress(counts.done, n_readings)
 
@@ -298,9 +295,7 @@ def pixel_counts(
     n_counters = most_counters(sensor.range_px, grid)
     for batch in batches_of(len(poses), n_counters, sensor, faces, world):
         view = View.of(poses[batch], sensor)
-        windows = windows_around(view, grid)
-        n_empty, n_object = _count(world, faces, view, sensor, windows)
-        yield PixelCounts(batch.stop, windows, n_empty, n_object)
+        yield _count(world, faces, view, sensor, grid, batch.stop)
 
 
 def most_counters(range_px: float, grid: Grid) -> int:
@@ -317,8 +312,10 @@ def batches_of(
     `n_counters` is the number of cells, or beams, of each reading.
     """
     # On average a reading has its share of the faces in reach, by area.
-    across = 2.0 * sensor.range_px / np.array(world.shape)
-    n_faces = int(np.minimum(across, 1.0).prod() * faces.position.size) + 1
+    height, width = world.shape
+    across = 2.0 * sensor.range_px
+    share = min(across / height, 1.0) * min(across / width, 1.0)
+    n_faces = int(share * faces.position.size) + 1
     size = min(
         COUNTERS_AT_ONCE // n_counters, FACES_AT_ONCE // n_faces, READINGS_AT_ONCE
     )
@@ -328,38 +325,37 @@ def batches_of(
 
 
 def _count(
-    world: World,
-    faces: WallFaces,
-    view: View,
-    sensor: Sensor,
-    windows: Windows,
-) -> tuple[CountArray, CountArray]:
-    """Return the empty and the object pixels of each cell of one batch."""
+    world: World, faces: WallFaces, view: View, sensor: Sensor, grid: Grid, done: int
+) -> PixelCounts:
+    """Return what one batch of readings, up to number `done`, sees."""
     seen = seen_faces(faces, world.occupied, view)
-    if seen.reading.size > MANY_FACES * view.size:
+    if seen.size > MANY_FACES * view.size:
         seen = without_hidden(seen, view)
     outline = trace_outline(seen, view)
-    clear = sensor.clear_no_hit
-    empty = empty_polygons(outline, seen, view, clear_no_hit=clear)
-    n_empty = count_pixels(empty, windows, view)
-    if sensor.behind_hit is BehindHit.UNSEEN:
-        n_object = count_surface(outline, seen, world.occupied, windows, view)
+    windows = windows_of(outline.reading, view.reach * outline.ends, view, grid)
+    whole = sensor.behind_hit is BehindHit.OCCUPIED
+    polygons = seen_polygons(
+        outline, seen, view, clear_no_hit=sensor.clear_no_hit, whole=whole
+    )
+    counts = count_pixels(polygons, windows, view)
+    n_empty = counts[0]
+    if whole:
+        n_object = counts[1] - n_empty
     else:
-        in_view = view_polygons(outline, view, clear_no_hit=clear)
-        n_object = count_pixels(in_view, windows, view) - n_empty
+        n_object = count_surface(outline, seen, world.occupied, windows, view)
     counter, is_wall = own_pixels(world.occupied, windows, view)
     n_empty[counter] += ~is_wall
     n_object[counter] += is_wall
-    return n_empty, n_object
+    return PixelCounts(done, windows, n_empty, n_object)
 
 
 def _entries(
     counts: PixelCounts,
 ) -> tuple[IntArray, npt.NDArray[np.int32], FloatArray]:
-    """Return the cells in view and what Eq. 4.22 says of them."""
+    """Return where readings end, the cells in view and what Eq. 4.22 says of them."""
     windows, n_empty, n_object = counts.windows, counts.n_empty, counts.n_object
-    in_view = (n_empty | n_object) != 0
-    sizes = np.count_nonzero(in_view.reshape(windows.first_row.size, -1), axis=1)
-    counter = np.flatnonzero(in_view)
+    counter = (n_empty | n_object).nonzero()[0]
+    n_readings = windows.first_row.size
+    bounds = np.arange(n_readings + 1) * (windows.size // n_readings)
     log_odds = inverse_sensor_model(n_empty[counter], n_object[counter])
-    return sizes, windows.cells()[counter], log_odds
+    return counter.searchsorted(bounds), windows.cells()[counter], log_odds

@@ -41,9 +41,9 @@ def without_hidden(faces: SeenFaces, view: View) -> SeenFaces:
     depth = faces.depth[face]
     closed_at = np.full(view.size * N_BINS, np.inf)
     np.minimum.at(closed_at, counter[fills], depth[fills] * np.maximum(*secants)[fills])
-    visible = np.zeros(faces.reading.size, dtype=np.bool_)
+    visible = np.zeros(faces.size, dtype=np.bool_)
     visible[face[depth * np.minimum(*secants) <= closed_at[counter] + EDGE_EPS]] = True
-    return faces.take(visible)
+    return faces.take(visible.nonzero()[0])
 
 
 def _bins_touched(faces: SeenFaces) -> tuple[IntArray, IntArray, BoolArray]:
@@ -58,8 +58,7 @@ def _bins_touched(faces: SeenFaces) -> tuple[IntArray, IntArray, BoolArray]:
     fills : ndarray of bool, shape (T,)
         Whether the face covers all of the bin.
     """
-    left = np.arctan2(faces.low, faces.depth) / _BIN_RAD
-    right = np.arctan2(faces.high, faces.depth) / _BIN_RAD
+    left, right = np.arctan2(faces.line[1:], faces.depth) / _BIN_RAD
     # Wall that begins at the robot closes a whole quadrant.
     right = np.where(faces.depth == 0.0, float(_QUARTER), right)
     # Ends are not widened for grazing rays: what fills the bin up to its edge is, too.

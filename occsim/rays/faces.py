@@ -26,12 +26,16 @@ class WallFaces:
         side. A whole number, but compared with those of the robot.
     start, stop : ndarray of float64, shape (K,)
         Its ends on the other axis, px, start < stop.
+    first_at : ndarray of int64, shape (4, L)
+        Of each side, the first face at a whole position 0 to L - 1 or beyond it. No
+        face lies at L - 1 or beyond.
     """
 
     bounds: tuple[int, ...]
     position: FloatArray
     start: FloatArray
     stop: FloatArray
+    first_at: IntArray
 
 
 def wall_faces(occupied: BoolArray) -> WallFaces:
@@ -54,12 +58,15 @@ def wall_faces(occupied: BoolArray) -> WallFaces:
     top, bottom = _near_and_far_faces(occupied)
     sides = (left, top, right, bottom)
     bounds = np.cumsum([0, *(position.size for position, _, _ in sides)])
-    arrays = [
+    position, start, stop = (
         np.concatenate(parts, dtype=np.float64) for parts in zip(*sides, strict=True)
-    ]
-    for array in arrays:
+    )
+    whole = np.arange(max(occupied.shape) + 2)
+    first_at = np.array([side[0].searchsorted(whole) for side in sides])
+    first_at += bounds[:-1, None]
+    for array in (position, start, stop, first_at):
         array.setflags(write=False)
-    return WallFaces(tuple(bounds.tolist()), *arrays)
+    return WallFaces(tuple(bounds.tolist()), position, start, stop, first_at)
 
 
 def _near_and_far_faces(occupied: BoolArray) -> tuple[_Runs, _Runs]:

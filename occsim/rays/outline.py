@@ -30,9 +30,9 @@ class Outline:
         Reading of the batch, ascending; within one, bearings ascend without a gap.
     face : ndarray of int64, shape (P,)
         Index into the seen faces, or NO_FACE.
-    start, end : ndarray of float64, shape (2, P)
-        Unit vectors (x, y) of the bearings at which the piece starts and ends. No
-        piece crosses a cardinal bearing: arcs then only fall or only rise, and no
+    ends : ndarray of float64, shape (2, 2, P)
+        x and y of unit vectors along the bearings at which the piece starts and ends.
+        No piece crosses a cardinal bearing: arcs then only fall or only rise, and no
         chord comes near the robot.
     begin : ndarray of float64, shape (P,)
         Bearing at which the piece starts, relative to the heading, rad.
@@ -40,8 +40,7 @@ class Outline:
 
     reading: IntArray
     face: IntArray
-    start: FloatArray
-    end: FloatArray
+    ends: FloatArray
     begin: FloatArray
 
 
@@ -84,11 +83,11 @@ def trace_outline(faces: SeenFaces, view: View) -> Outline:
 
 def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     """Return the intervals between all ends of faces, sorted within each reading."""
-    n, k = view.size, faces.reading.size
+    n, k = view.size, faces.size
     edge = np.full(n, view.half)
-    turns = cardinal_cuts(view).reshape(-1)
-    bearing = np.concatenate([-edge, edge, turns, faces.begin, faces.end])
-    owner = np.concatenate([np.arange(6 * n) % n, faces.reading, faces.reading])
+    turns = cardinal_cuts(view).ravel()
+    bearing = np.concatenate([-edge, edge, turns, faces.bearing.ravel()])
+    owner = np.concatenate([np.arange(n)] * 6 + [faces.reading] * 2)
     # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
     order = (8.0 * owner + bearing).argsort()
     bearing, owner = bearing[order], owner[order]
@@ -122,12 +121,12 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
     # How far ahead a middle points, by the side that is looked at: one gather a pair.
     x, y = intervals.middle_x, intervals.middle_y
     ahead = np.concatenate([x, y, -x, -y])
-    offset, least = faces.side * n_intervals, faces.ahead_min()
+    offset, least = faces.side * n_intervals, faces.ahead_min
     covered = (intervals.stop - intervals.first).cumsum()
     n_chunks = (int(covered[-1]) if covered.size else 0) // PAIRS_AT_ONCE
     cuts = covered.searchsorted(np.arange(1, n_chunks + 1) * PAIRS_AT_ONCE, "right")
     start = 0
-    for stop in sorted({*cuts.tolist(), faces.reading.size}):
+    for stop in sorted({*cuts.tolist(), faces.size}):
         pair, interval = ragged_ranges(
             intervals.first[start:stop], intervals.stop[start:stop]
         )
@@ -148,15 +147,10 @@ def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
     differs = (reading[1:] != reading[:-1]) | (nearest[1:] != nearest[:-1])
     differs |= quadrant[1:] != quadrant[:-1]
     first, last = run_ends(differs)
-    owner = reading[first]
-    theta, begin = view.theta[owner], intervals.begin[first]
-    return Outline(
-        reading=owner,
-        face=nearest[first],
-        start=unit_vectors(begin, theta),
-        end=unit_vectors(intervals.end[last], theta),
-        begin=begin,
-    )
+    owner, begin = reading[first], intervals.begin[first]
+    bearings = np.array([begin, intervals.end[last]])
+    ends = unit_vectors(bearings, view.theta[owner])
+    return Outline(reading=owner, face=nearest[first], ends=ends, begin=begin)
 
 
 def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
@@ -171,10 +165,10 @@ def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
     -------
     first, last : ndarray of int64, shape (Q,)
     """
-    last = np.append(differs.nonzero()[0], differs.size)
-    first = np.empty_like(last)
-    first[0], first[1:] = 0, last[:-1] + 1
-    return first, last
+    cuts = differs.nonzero()[0]
+    before = np.empty(cuts.size + 2, dtype=np.int64)
+    before[0], before[1:-1], before[-1] = -1, cuts, differs.size
+    return before[:-1] + 1, before[1:]
 
 
 def unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
@@ -185,7 +179,7 @@ def unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
 
 
 def points_on_faces(
-    faces: SeenFaces, face: IntArray, direction: FloatArray
+    faces: SeenFaces, face: IntArray, directions: FloatArray
 ) -> FloatArray:
     """Return where rays meet faces.
 
@@ -194,40 +188,39 @@ def points_on_faces(
     faces : SeenFaces
         Faces in view.
     face : ndarray of int64, shape (Q,)
-        One face for each ray.
-    direction : ndarray of float64, shape (2, Q)
-        Unit vectors of the rays. One may pass its face's end by the tolerance; the
-        point then lies on the face's prolongation.
+        One of them for each pair of rays.
+    directions : ndarray of float64, shape (2, 2, Q)
+        x and y of unit vectors along two rays each. One may pass its face's end by the
+        tolerance; the point then lies on the face's prolongation.
+
+    Returns
+    -------
+    ndarray of float64, shape (2, 2, Q)
+        x and y of the points, from the robot, px.
+    """
+    side, depth = faces.side[face], faces.depth[face]
+    cos, sin = SIDE_COS[side], SIDE_SIN[side]
+    sideways = depth * lateral_slopes(faces, face, directions)
+    return np.array([depth * cos - sideways * sin, depth * sin + sideways * cos])
+
+
+def lateral_slopes(
+    faces: SeenFaces, face: IntArray, directions: FloatArray
+) -> FloatArray:
+    """Return how far sideways rays move per step ahead, in their face's frame.
+
+    Parameters
+    ----------
+    faces, face, directions
+        As in `points_on_faces`.
 
     Returns
     -------
     ndarray of float64, shape (2, Q)
-        Points (x, y) from the robot, px.
+        The tangents of the angles between rays and looking direction.
     """
-    cut = faces.take(face)
-    cos, sin = SIDE_COS[cut.side], SIDE_SIN[cut.side]
-    sideways = cut.depth * lateral_slope(cut, direction)
-    return np.array(
-        [cut.depth * cos - sideways * sin, cut.depth * sin + sideways * cos]
-    )
-
-
-def lateral_slope(faces: SeenFaces, direction: FloatArray) -> FloatArray:
-    """Return how far sideways each ray moves per step ahead, in its face's frame.
-
-    Parameters
-    ----------
-    faces : SeenFaces
-        One face for each of Q rays.
-    direction : ndarray of float64, shape (2, Q)
-        Unit vectors of the rays.
-
-    Returns
-    -------
-    ndarray of float64, shape (Q,)
-        The tangent of the angle between ray and looking direction.
-    """
-    x, y = direction
-    cos, sin = SIDE_COS[faces.side], SIDE_SIN[faces.side]
-    ahead = np.maximum(x * cos + y * sin, faces.ahead_min())
+    x, y = directions
+    side = faces.side[face]
+    cos, sin = SIDE_COS[side], SIDE_SIN[side]
+    ahead = np.maximum(x * cos + y * sin, faces.ahead_min[face])
     return np.asarray((y * cos - x * sin) / ahead, dtype=np.float64)

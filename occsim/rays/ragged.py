@@ -1,8 +1,8 @@
-"""Lists of unequal length, laid end to end."""
+"""Whole numbers: lists of unequal length laid end to end, and rounding into bounds."""
 
 import numpy as np
 
-from occsim._types import IntArray
+from occsim._types import FloatArray, IntArray
 
 
 def ragged_ranges(first: IntArray, stop: IntArray) -> tuple[IntArray, IntArray]:
@@ -25,3 +25,8 @@ def ragged_ranges(first: IntArray, stop: IntArray) -> tuple[IntArray, IntArray]:
     value = np.arange(owner.size)
     value += (first - sizes.cumsum() + sizes).repeat(sizes)
     return owner, value
+
+
+def whole_within(values: FloatArray, most: float | FloatArray) -> IntArray:
+    """Return whole numbers, of any size, cut to 0 to `most` and as integers."""
+    return np.minimum(np.maximum(values, 0.0), most).astype(np.int64)

@@ -12,15 +12,16 @@ import numpy as np
 import numpy.typing as npt
 
 from occsim._types import BoolArray, FloatArray, IntArray
-from occsim.geometry import wrap_angle
 from occsim.grid import Grid
 from occsim.rays.outline import NO_FACE, Outline, points_on_faces, run_ends
-from occsim.rays.ragged import ragged_ranges
+from occsim.rays.ragged import ragged_ranges, whole_within
 from occsim.rays.reach import SeenFaces, View
 
 CountArray = npt.NDArray[np.int32]
 
 _HALVES = np.array([[1.0], [0.5], [0.0], [-0.5], [-1.0]])
+
+_RIGHT, _LEFT = np.int32(1), np.int32(-1)
 
 OWN_RADIUS_PX = 1e-6
 """Outlines keep this far from the robot: a pixel centre there has no bearing and is
@@ -53,17 +54,26 @@ class Windows:
         """Number of counters of all windows."""
         return self.first_row.size * self.n_rows * self.n_cols
 
-    def base(self) -> IntArray:
-        """Return where each window begins, less its first cell, (N,)."""
-        starts = np.arange(self.first_row.size) * (self.n_rows * self.n_cols)
-        return starts - self.first_row * self.n_cols - self.first_col
+    def base(self, n_outlines: int) -> IntArray:
+        """Return where each window begins, less its first cell, (n_outlines,).
+
+        Where there are more outlines than windows, all windows follow one another
+        again.
+        """
+        starts = np.arange(n_outlines) * (self.n_rows * self.n_cols)
+        corner = self.first_row * self.n_cols + self.first_col
+        return (starts.reshape(-1, corner.size) - corner).ravel()
 
     def pixel_counters(
         self, reading: IntArray, row: IntArray, col: IntArray
     ) -> IntArray:
         """Return the counter of the cell of each pixel, (Q,)."""
         cell_px = self.grid.cell_px
-        return self.base()[reading] + row // cell_px * self.n_cols + col // cell_px
+        return (
+            self.base(self.first_row.size)[reading]
+            + row // cell_px * self.n_cols
+            + col // cell_px
+        )
 
     def sums(self, counter: IntArray, weights: CountArray) -> CountArray:
         """Return the sum of the weights, (T,), that fall to each counter, (size,)."""
@@ -80,11 +90,18 @@ class Windows:
         return (corner.astype(np.int32)[:, None, None] + inside).reshape(-1)
 
 
-def windows_around(view: View, grid: Grid) -> Windows:
-    """Return windows of cells that hold the field of view of each reading.
+def windows_of(
+    reading: IntArray, points: FloatArray, view: View, grid: Grid
+) -> Windows:
+    """Return windows of cells that hold what the pieces of each reading enclose.
 
     Parameters
     ----------
+    reading : ndarray of int64, shape (P,)
+        Reading of each piece of bearing, ascending; none is without.
+    points : ndarray of float64, shape (2, 2, P)
+        x and y from the robot, px, of the start and the end of each piece of boundary.
+        Of an arc within a quadrant, these lie farthest along either axis.
     view : View
         N readings.
     grid : Grid
@@ -94,13 +111,14 @@ def windows_around(view: View, grid: Grid) -> Windows:
     -------
     Windows
     """
-    # Along x, then along y.
-    centre, axis = np.array([view.x, view.y]), np.array([[0.0], [0.5 * np.pi]])
-    off = np.abs(wrap_angle(view.theta - axis))
-    farthest = np.cos(np.maximum(off - view.half, 0.0))
-    nearest = np.cos(np.minimum(off + view.half, np.pi))
-    low = centre + view.reach * np.minimum(nearest, 0.0)
-    high = centre + view.reach * np.maximum(farthest, 0.0)
+    first, _ = run_ends(reading[1:] != reading[:-1])
+    low, high = (
+        view.places
+        + beyond(
+            beyond.reduceat(beyond(points[:, 0], points[:, 1]), first, axis=1), 0.0
+        )
+        for beyond in (np.minimum, np.maximum)
+    )
     return windows_between(low, high, grid)
 
 
@@ -120,10 +138,8 @@ def windows_between(low: FloatArray, high: FloatArray, grid: Grid) -> Windows:
     """
     n_cells = np.array([[grid.n_cols], [grid.n_rows]])
     # Far outside the image, cells would overflow whole numbers.
-    first, last = (
-        np.minimum(np.maximum(np.floor(end / grid.cell_px), 0), n_cells - 1)
-        for end in (low - 1.0, high + 1.0)
-    )
+    cells = np.floor(np.array([low - 1.0, high + 1.0]) / grid.cell_px)
+    first, last = np.minimum(np.maximum(cells, 0.0), n_cells - 1)
     length = (last - first).max(axis=1, keepdims=True) + 1
     first_col, first_row = np.minimum(first, n_cells - length).astype(np.int64)
     n_cols, n_rows = length.ravel().astype(int).tolist()
@@ -131,45 +147,39 @@ def windows_between(low: FloatArray, high: FloatArray, grid: Grid) -> Windows:
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
-    """Edges of closed outlines, walked with bearings ascending.
-
-    Parameters
-    ----------
-    reading : ndarray of int64, shape (E,)
-        Reading of the batch.
-    start, end : ndarray of float64, shape (2, E)
-        Points (x, y) from the robot, px.
-    radius : float or ndarray of float64, shape (E,)
-        Of arcs, px: one for all of them, or each its own.
-    """
-
-    reading: IntArray
-    start: FloatArray
-    end: FloatArray
-    radius: FloatArray | float = 0.0
-
-
-@dataclass(frozen=True, eq=False)
 class Polygons:
-    """Closed outlines, one of each reading.
+    """Closed outlines: first one of each reading, then perhaps a second one of each.
 
     Parameters
     ----------
-    straight : Edges
-        Edges that are straight.
-    arcs : Edges
-        Edges that run round the robot, none across a cardinal bearing.
+    size : int
+        Number M of outlines: N, or 2 N.
+    owner : ndarray of int64, shape (V,)
+        Outline of each corner, 0 to M - 1.
+    corners : ndarray of float64, shape (2, V)
+        x and y from the robot, px.
+    following : ndarray of int64, shape (V,)
+        The corner to which the edge from each corner leads, with bearings ascending.
+    is_arc : ndarray of bool, shape (V,)
+        Whether that edge runs round the robot, else it is straight. No arc crosses a
+        cardinal bearing.
+    radius : float or ndarray of float64, shape (P,)
+        Of those that do, px: one for all of them, or that of the edge from each of the
+        first corners.
     """
 
-    straight: Edges
-    arcs: Edges
+    size: int
+    owner: IntArray
+    corners: FloatArray
+    following: IntArray
+    is_arc: BoolArray
+    radius: FloatArray | float
 
 
-def empty_polygons(
-    outline: Outline, faces: SeenFaces, view: View, *, clear_no_hit: bool
+def seen_polygons(
+    outline: Outline, faces: SeenFaces, view: View, *, clear_no_hit: bool, whole: bool
 ) -> Polygons:
-    """Return what lies before the first wall, within reach.
+    """Return what lies before the first wall, and all of which something is said.
 
     Parameters
     ----------
@@ -180,51 +190,33 @@ def empty_polygons(
     view : View
         N readings.
     clear_no_hit : bool
-        Whether bearings without a hit are empty as far as the reach.
+        Whether bearings without a hit are empty as far as the reach. Else nothing is
+        said at them.
+    whole : bool
+        Whether the second outlines are wanted.
 
     Returns
     -------
     Polygons
     """
     is_open = outline.face == NO_FACE
-    is_arc = is_open & clear_no_hit
+    kinds = [is_open & clear_no_hit, ~is_open | clear_no_hit][: 1 + whole]
+    is_arc = np.array(kinds)
     radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
-    start, end = outline.start * radius, outline.end * radius
+    ends = outline.ends[:, :, None] * radius
     at_face = (~is_open).nonzero()[0]
     at_face = at_face[faces.depth[outline.face[at_face]] > 0.0]
-    face = outline.face[at_face]
-    ends = np.concatenate([outline.start[:, at_face], outline.end[:, at_face]], axis=1)
-    points = points_on_faces(faces, np.concatenate([face, face]), ends)
-    start[:, at_face], end[:, at_face] = points[:, : face.size], points[:, face.size :]
-    return closed_polygons(outline.reading, start, end, is_arc, view.reach, view)
-
-
-def view_polygons(outline: Outline, view: View, *, clear_no_hit: bool) -> Polygons:
-    """Return what lies within reach, at bearings of which the reading says something.
-
-    Parameters
-    ----------
-    outline : Outline
-        Pieces of bearing and their nearest faces.
-    view : View
-        N readings.
-    clear_no_hit : bool
-        Whether that includes bearings without a hit.
-
-    Returns
-    -------
-    Polygons
-    """
-    is_arc = (outline.face != NO_FACE) | clear_no_hit
-    radius = np.where(is_arc, max(view.reach, OWN_RADIUS_PX), OWN_RADIUS_PX)
-    start, end = outline.start * radius, outline.end * radius
-    return closed_polygons(outline.reading, start, end, is_arc, view.reach, view)
+    ends[:, :, 0, at_face] = points_on_faces(
+        faces, outline.face[at_face], outline.ends.take(at_face, axis=2)
+    )
+    owner = np.concatenate([outline.reading, outline.reading + view.size][: 1 + whole])
+    ends = ends.reshape(2, 2, -1)
+    return closed_polygons(owner, ends, is_arc.ravel(), view.reach, view)
 
 
 def closed_polygons(
-    reading: IntArray,
-    start: FloatArray,
-    end: FloatArray,
+    owner: IntArray,
+    ends: FloatArray,
     is_arc: BoolArray,
     radius: FloatArray | float,
     view: View,
@@ -233,10 +225,12 @@ def closed_polygons(
 
     Parameters
     ----------
-    reading : ndarray of int64, shape (P,)
-        Reading of each piece, ascending; within one, bearings ascend without a gap.
-    start, end : ndarray of float64, shape (2, P)
-        Its ends (x, y) from the robot, px, at least OWN_RADIUS_PX away.
+    owner : ndarray of int64, shape (P,)
+        Outline of each piece, ascending: of N readings once, or twice. Within one,
+        bearings ascend without a gap.
+    ends : ndarray of float64, shape (2, 2, P)
+        x and y from the robot, px, of its start and its end, at least OWN_RADIUS_PX
+        away.
     is_arc : ndarray of bool, shape (P,)
         Whether the piece runs round the robot; none across a cardinal bearing.
     radius : float or ndarray of float64, shape (P,)
@@ -248,69 +242,71 @@ def closed_polygons(
     -------
     Polygons
     """
-    first, last = run_ends(reading[1:] != reading[:-1])
-    # Back past the robot at a tiny distance, clockwise to anticlockwise side.
+    first, last = run_ends(owner[1:] != owner[:-1])
+    past = _past_robot(view, first.size // view.size)
+    corners = np.concatenate([ends.reshape(2, -1), past.reshape(2, -1)], axis=1)
+    n_pieces, size = owner.size, corners.shape[1]
+    # From the start of a piece to its end, from there to the start of the next, from
+    # the last end of an outline past the robot to its first start.
+    following = np.arange(n_pieces, size + n_pieces)
+    following[n_pieces : 2 * n_pieces] = np.arange(1, n_pieces + 1)
+    following[n_pieces + last] = np.arange(2 * n_pieces, 2 * n_pieces + first.size)
+    following[2 * n_pieces :] += first.size - n_pieces
+    following[size - first.size :] = first
+    arcs = np.zeros(size, dtype=np.bool_)
+    arcs[:n_pieces] = is_arc
+    owners = [owner, owner, *[owner[first]] * past.shape[1]]
+    return Polygons(
+        first.size, np.concatenate(owners), corners, following, arcs, radius
+    )
+
+
+def _past_robot(view: View, times: int) -> FloatArray:
+    """Return points (2, 5, M) past the robot at a tiny distance.
+
+    They go back from the clockwise to the anticlockwise side.
+    """
     turns = view.half * _HALVES
     absolute = np.where(turns >= np.pi, -np.pi, turns) + view.theta
     turned = OWN_RADIUS_PX * np.array([np.cos(absolute), np.sin(absolute)])
-    past = [*turned.transpose(1, 0, 2), start[:, first]]
-    # From each piece to the next, from the last of a reading past the robot.
-    following = np.empty_like(start)
-    following[:, :-1] = start[:, 1:]
-    following[:, last] = past[0]
-    flat = (~is_arc).nonzero()[0]
-    straight = Edges(
-        np.concatenate([reading, reading[flat], *[reading[first]] * (len(past) - 1)]),
-        np.concatenate([end, start[:, flat], *past[:-1]], axis=1),
-        np.concatenate([following, end[:, flat], *past[1:]], axis=1),
-    )
-    if flat.size == 0:
-        return Polygons(straight, Edges(reading, start, end, radius))
-    arc = is_arc.nonzero()[0]
-    if isinstance(radius, np.ndarray):
-        radius = radius[arc]
-    return Polygons(straight, Edges(reading[arc], start[:, arc], end[:, arc], radius))
+    return np.concatenate([turned] * times, axis=2)
 
 
 def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray:
-    """Return how many pixel centres of each cell lie inside the outlines.
+    """Return how many pixel centres of each cell lie inside polygons.
 
     Parameters
     ----------
     polygons : Polygons
-        Closed outlines of N readings.
+        One of each reading, or two.
     windows : Windows
         Cells to count in.
     view : View
-        The readings.
+        N readings.
 
     Returns
     -------
-    ndarray of int32, shape (windows.size,)
+    ndarray of int32, shape (M / N, windows.size)
         Zero in the spare column of each window.
     """
-    base = windows.base()
-    parts = [
-        _crossings(edges, is_arc, windows.grid, view)
-        for edges, is_arc in ((polygons.straight, False), (polygons.arcs, True))
-    ]
-    reading, row, x, sign = (np.concatenate(part) for part in zip(*parts, strict=True))
+    owner, row, x, sign = _crossings(polygons, windows.grid, view)
     grid = windows.grid
     # The first pixel whose centre lies at the crossing or right of it.
-    col = _whole_within(np.ceil(x), grid.width_px)
+    col = whole_within(np.ceil(x), grid.width_px)
     cell, within = _cells_of_pixels(max(grid.height_px, grid.width_px), grid.cell_px)
-    counter = base[reading] + cell[row] * windows.n_cols + cell[col]
+    base = windows.base(polygons.size)
+    counter = base[owner] + cell[row] * windows.n_cols + cell[col]
     # Each change counts for its whole cell and all right of it, but in its own cell not
     # for the pixels left of it. One counter more: nothing is left of the spare column.
-    changes = np.zeros(windows.size + 1, dtype=np.int32)
+    n_counters = polygons.size * windows.n_rows * windows.n_cols
+    changes = np.zeros(n_counters + 1, dtype=np.int32)
     left = sign * within[col]
     np.add.at(changes, counter, sign * np.int32(grid.cell_px) - left)
     if grid.cell_px > 1:
         np.add.at(changes, counter + 1, left)
-    changes = changes[:-1]
-    by_row = changes.reshape(-1, windows.n_cols)
+    by_row = changes[:-1].reshape(-1, windows.n_cols)
     np.cumsum(by_row, axis=1, out=by_row)
-    return changes
+    return by_row.reshape(-1, windows.size)
 
 
 @lru_cache(maxsize=8)
@@ -321,52 +317,50 @@ def _cells_of_pixels(length_px: int, cell_px: int) -> tuple[IntArray, CountArray
     return cell, within.astype(np.int32)
 
 
-def _whole_within(values: FloatArray, most: int) -> IntArray:
-    return np.minimum(np.maximum(values, 0), most).astype(np.int64)
-
-
 def _crossings(
-    edges: Edges, is_arc: bool, grid: Grid, view: View
+    polygons: Polygons, grid: Grid, view: View
 ) -> tuple[IntArray, IntArray, FloatArray, CountArray]:
     """Return where edges cross lines of pixel centres.
 
     Returns
     -------
-    reading, row : ndarray of int64, shape (T,)
-        Reading of the batch and row of pixels.
+    owner, row : ndarray of int64, shape (T,)
+        Outline and row of pixels.
     x : ndarray of float64, shape (T,)
         Column, such that a whole number is that pixel's centre.
     sign : ndarray of int32, shape (T,)
         +1 where the inside lies to the right, -1 where to the left.
     """
-    shift = view.y[edges.reading] - 0.5
-    rows = np.array(
-        [
-            _whole_within(np.ceil(end[1] + shift), grid.height_px)
-            for end in (edges.start, edges.end)
-        ]
-    )
+    robots = np.concatenate([view.places - 0.5] * (polygons.size // view.size), axis=1)
+    shift = robots[1][polygons.owner]
+    rows = whole_within(np.ceil(polygons.corners[1] + shift), grid.height_px)
     # Between narrow beams most edges cross no line.
-    crosses = (rows[0] != rows[1]).nonzero()[0]
-    rows, shift = rows[:, crosses], shift[crosses]
-    edge, row = ragged_ranges(np.minimum(*rows), np.maximum(*rows))
+    start = (rows != rows[polygons.following]).nonzero()[0]
+    is_arc = polygons.is_arc[start]
+    start = np.concatenate([start[~is_arc], start[is_arc]])
+    end, n_lines = polygons.following[start], start.size - np.count_nonzero(is_arc)
+    first, last, shift = rows[start], rows[end], shift[start]
+    edge, row = ragged_ranges(np.minimum(first, last), np.maximum(first, last))
     # Bearings ascend clockwise: falling edges (y grows) have the inside on their left,
     # and of the arcs those are the ones on the right.
-    falls = rows[1] > rows[0]
-    sign = np.where(falls, np.int32(-1), np.int32(1))[edge]
-    if is_arc:
-        y = row - shift[edge]
-        radius = edges.radius
-        if isinstance(radius, np.ndarray):
-            radius = radius[crosses][edge]
-        x = -sign * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
-    else:
-        # From the upper end whichever way it is walked: the two sides of the seam of
-        # a full turn then cancel to the last bit.
-        start, end = edges.start[:, crosses], edges.end[:, crosses]
-        top = np.where(falls, start, end)
-        width, height = end - start
-        slope = width / np.where(height == 0.0, 1.0, height)
-        x = top[0][edge] + (row - (shift + top[1])[edge]) * slope[edge]
-    reading = edges.reading[crosses][edge]
-    return reading, row, x + (view.x[reading] - 0.5), sign
+    falls = last > first
+    sign = np.where(falls, _LEFT, _RIGHT)[edge]
+    line, arc = np.split(edge, [edge.searchsorted(n_lines)])
+    x = np.empty(edge.size)
+    # From the upper end whichever way an edge is walked: the two sides of the seam of
+    # a full turn then cancel to the last bit.
+    begins, ends = polygons.corners[:, np.array([start, end])[:, :n_lines]].transpose(
+        1, 0, 2
+    )
+    top = np.where(falls[:n_lines], begins, ends)
+    width, height = ends - begins
+    slope = width / np.where(height == 0.0, 1.0, height)
+    above = shift[:n_lines] + top[1]
+    x[: line.size] = top[0][line] + (row[: line.size] - above[line]) * slope[line]
+    y = row[line.size :] - shift[arc]
+    radius = polygons.radius
+    if isinstance(radius, np.ndarray):
+        radius = radius[start[n_lines:]][arc - n_lines]
+    x[line.size :] = -sign[line.size :] * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
+    owner = polygons.owner[start][edge]
+    return owner, row, x + robots[0][owner], sign

@@ -5,7 +5,7 @@ import numpy as np
 from occsim._types import BoolArray, FloatArray, IntArray
 from occsim.geometry import wrap_angle
 from occsim.grid import Grid
-from occsim.rays.outline import NO_FACE, Outline, lateral_slope
+from occsim.rays.outline import NO_FACE, Outline, lateral_slopes
 from occsim.rays.ragged import ragged_ranges
 from occsim.rays.reach import SeenFaces, View, first_pixel_is_wall
 from occsim.rays.scan import CountArray, Windows
@@ -43,11 +43,9 @@ def count_surface(
     """
     pieces = np.flatnonzero(outline.face != NO_FACE)
     pieces = pieces[faces.depth[outline.face[pieces]] > 0.0]
-    cut = faces.take(outline.face[pieces])
-    slopes = [
-        lateral_slope(cut, direction[:, pieces])
-        for direction in (outline.start, outline.end)
-    ]
+    face = outline.face[pieces]
+    cut = faces.take(face)
+    slopes = lateral_slopes(faces, face, outline.ends.take(pieces, axis=2))
     found = [_wall_next_to_robot(occupied, view)]
     # Centres lie 0.5, 1.5, ... px behind their face: no others can be near enough.
     for behind in range(int(SURFACE_DEPTH_PX + 0.5)):
@@ -59,7 +57,7 @@ def count_surface(
 
 
 def _row_behind(
-    behind: int, faces: SeenFaces, slopes: list[FloatArray], view: View
+    behind: int, faces: SeenFaces, slopes: FloatArray, view: View
 ) -> tuple[IntArray, IntArray, IntArray]:
     """Return reading, row and column of pixels `behind` rows behind pieces of face.
 
@@ -75,7 +73,7 @@ def _row_behind(
     low = np.maximum(slopes[0] * centre, -farthest)
     high = np.minimum(slopes[1] * centre, farthest)
 
-    x, y = view.x[faces.reading], view.y[faces.reading]
+    x, y = view.places.take(faces.reading, axis=1)
     horizontal = faces.side % 2 == 1
     along, across = np.where(horizontal, (y, x), (x, y))
     # Bearings ascend clockwise: with the axis when looking right or up, else against.
@@ -103,7 +101,7 @@ def _wall_next_to_robot(
     """
     starts_in_wall = first_pixel_is_wall(occupied, view)
     reading = np.flatnonzero(starts_in_wall.any(axis=1))
-    x, y, theta = view.x[reading], view.y[reading], view.theta[reading]
+    (x, y), theta = view.places[:, reading], view.theta[reading]
     span = np.arange(-2, 3)
     row, col = np.meshgrid(span, span, indexing="ij")
     row = np.floor(y).astype(np.int64)[:, None] + row.ravel()
@@ -168,8 +166,10 @@ def robots_on_centres(grid: Grid, view: View) -> tuple[IntArray, IntArray, IntAr
     -------
     reading, row, col : ndarray of int64, shape (Q,)
     """
-    row, col = np.floor(view.y), np.floor(view.x)
-    own = np.hypot(view.x - col - 0.5, view.y - row - 0.5) <= OWN_PIXEL_EPS_PX
-    own &= (row >= 0) & (col >= 0) & (row < grid.height_px) & (col < grid.width_px)
-    reading = np.flatnonzero(own)
-    return reading, row[reading].astype(np.int64), col[reading].astype(np.int64)
+    pixel = np.floor(view.places)
+    own = np.hypot(*(view.places - pixel - 0.5)) <= OWN_PIXEL_EPS_PX
+    size = np.array([[grid.width_px], [grid.height_px]])
+    own &= ((pixel >= 0) & (pixel < size)).all(axis=0)
+    reading = own.nonzero()[0]
+    col, row = pixel[:, reading].astype(np.int64)
+    return reading, row, col

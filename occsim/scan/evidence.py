@@ -1,6 +1,7 @@
 """From scans to evidence: Eq. 4.22 for the sectors of beams."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,17 +18,15 @@ from occsim.evidence import (
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.rays.reach import View
-from occsim.rays.scan import Windows, count_pixels
+from occsim.rays.scan import Windows, count_pixels, windows_of
 from occsim.rays.surface import robots_on_centres
 from occsim.scan.log import ScanLog
 from occsim.scan.sectors import (
     Sectors,
     cut_pieces,
-    empty_radii,
-    polygons,
     scan_view,
-    view_radii,
-    windows_of,
+    sector_polygons,
+    sector_radii,
 )
 from occsim.sensor import OWN_PIXEL_EPS_PX, Sensor
 
@@ -121,9 +120,7 @@ def scan_counts(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> Iterator[Pixel
     for stop in _ends_of_batches(scan_log.ranges_px, view.reach, grid):
         part = slice(start, stop)
         ranges = scan_log.ranges_px[part][:, sectors.order]
-        batch = View(
-            view.x[part], view.y[part], view.theta[part], view.reach, view.half
-        )
+        batch = replace(view, places=view.places[:, part], theta=view.theta[part])
         yield count_scans(ranges, sectors, batch, sensor, grid, stop)
         start = stop
 
@@ -156,12 +153,11 @@ def count_scans(
     PixelCounts
     """
     pieces = cut_pieces(sectors, view)
-    farthest = view_radii(ranges_px, sensor, view)
-    windows = windows_of(pieces, farthest, view, grid)
-    n_empty, in_view = (
-        count_pixels(polygons(pieces, radii, view), windows, view)
-        for radii in (empty_radii(ranges_px, sensor, view), farthest)
-    )
+    radius = sector_radii(ranges_px, sensor, view).reshape(2, -1)[:, pieces.beam]
+    points = pieces.ends[:, :, None] * radius
+    windows = windows_of(pieces.reading, points[:, :, 1], view, grid)
+    polygons = sector_polygons(pieces, points, radius, view)
+    n_empty, in_view = count_pixels(polygons, windows, view)
     n_object = np.subtract(in_view, n_empty, out=in_view)
     for counters, counter in zip(
         (n_empty, n_object), _own_pixels(ranges_px, windows, view), strict=True

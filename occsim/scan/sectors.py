@@ -5,17 +5,14 @@ from typing import Self
 
 import numpy as np
 
-from occsim._types import BoolArray, FloatArray, IntArray
+from occsim._types import FloatArray, IntArray
 from occsim.geometry import wrap_angle
-from occsim.grid import Grid
 from occsim.rays.outline import SLIVER_RAD, cardinal_cuts, run_ends, unit_vectors
 from occsim.rays.reach import REACH_MAX_PX, View
 from occsim.rays.scan import (
     OWN_RADIUS_PX,
     Polygons,
-    Windows,
     closed_polygons,
-    windows_between,
 )
 from occsim.sensor import EDGE_EPS, SURFACE_DEPTH_PX, BehindHit, Sensor
 
@@ -86,15 +83,14 @@ class Pieces:
         Beam of the piece, counted through all scans: 0 to N * B - 1.
     turns : ndarray of int64, shape (P,)
         Cardinal bearings passed since the first piece.
-    start, end : ndarray of float64, shape (2, P)
-        Unit vectors (x, y) of the bearings at which the piece starts and ends.
+    ends : ndarray of float64, shape (2, 2, P)
+        x and y of unit vectors along the bearings at which the piece starts and ends.
     """
 
     reading: IntArray
     beam: IntArray
     turns: IntArray
-    start: FloatArray
-    end: FloatArray
+    ends: FloatArray
 
 
 def scan_view(
@@ -105,10 +101,11 @@ def scan_view(
     It looks along the middle of the sectors, as far as both the sensor's parameters
     and the range finder itself reach.
     """
-    x, y, theta = np.ascontiguousarray(poses.T)
+    coordinates = np.ascontiguousarray(poses.T)
     reach = min(sensor.range_px, max_range_px, REACH_MAX_PX) + EDGE_EPS
     # Bearings are small beside no heading: what they add to 1e16 rad would be lost.
-    return View(x, y, wrap_angle(theta) + sectors.middle, reach, sectors.half)
+    theta = wrap_angle(coordinates[2]) + sectors.middle
+    return View(coordinates[:2], theta, reach, sectors.half)
 
 
 def cut_pieces(sectors: Sectors, view: View) -> Pieces:
@@ -139,73 +136,55 @@ def cut_pieces(sectors: Sectors, view: View) -> Pieces:
         reading=reading,
         beam=reading * (n_bounds - 1) + begins - 1,
         turns=place + 1 - begins,
-        start=corner.take(cut, axis=1),
-        end=corner.take(cut + 1, axis=1),
+        ends=corner.take(np.array([cut, cut + 1]), axis=1),
     )
 
 
-def empty_radii(ranges_px: FloatArray, sensor: Sensor, view: View) -> FloatArray:
-    """Return how far each sector is empty.
+def sector_radii(ranges_px: FloatArray, sensor: Sensor, view: View) -> FloatArray:
+    """Return how far each sector is empty, and how far anything is said of it.
 
     Parameters
     ----------
     ranges_px : ndarray of float64, shape (N, B)
         Ranges of the beams; infinity is no return, NaN invalid.
     sensor : Sensor
-        Whether beams without return clear.
+        Whether beams without return clear, and what is said behind a hit.
     view : View
         N scans.
 
     Returns
     -------
-    ndarray of float64, shape (N, B)
-        px; OWN_RADIUS_PX where nothing is empty.
+    ndarray of float64, shape (2, N, B)
+        px; OWN_RADIUS_PX where nothing is empty, or said.
     """
-    nothing = view.reach if sensor.clear_no_hit else OWN_RADIUS_PX
+    radii = np.full((2, *ranges_px.shape), view.reach)
+    empty, said = radii
+    hit = ranges_px <= view.reach
     # "At the location of the detected object" is object, also where rounding says not.
-    hit = np.maximum(ranges_px - EDGE_EPS, OWN_RADIUS_PX)
-    return _by_kind(ranges_px, view, hit, nothing)
-
-
-def view_radii(ranges_px: FloatArray, sensor: Sensor, view: View) -> FloatArray:
-    """Return how far anything is said of each sector.
-
-    Parameters
-    ----------
-    ranges_px, sensor, view
-        As in `empty_radii`.
-
-    Returns
-    -------
-    ndarray of float64, shape (N, B)
-        px; OWN_RADIUS_PX where nothing is said.
-    """
-    nothing = view.reach if sensor.clear_no_hit else OWN_RADIUS_PX
-    hit = np.full_like(ranges_px, view.reach)
+    np.copyto(empty, np.maximum(ranges_px - EDGE_EPS, OWN_RADIUS_PX), where=hit)
     if sensor.behind_hit is BehindHit.UNSEEN:
         surface = ranges_px + (SURFACE_DEPTH_PX + EDGE_EPS)
-        hit = np.minimum(surface, view.reach)
-    return _by_kind(ranges_px, view, hit, nothing)
-
-
-def _by_kind(
-    ranges_px: FloatArray, view: View, hit: FloatArray, nothing: float
-) -> FloatArray:
-    radii = np.where(ranges_px <= view.reach, hit, view.reach)
-    radii[ranges_px == np.inf] = nothing
-    radii[np.isnan(ranges_px)] = OWN_RADIUS_PX
+        np.copyto(said, np.minimum(surface, view.reach), where=hit)
+    if not sensor.clear_no_hit:
+        radii[:, ranges_px == np.inf] = OWN_RADIUS_PX
+    radii[:, np.isnan(ranges_px)] = OWN_RADIUS_PX
     return radii
 
 
-def polygons(pieces: Pieces, radii: FloatArray, view: View) -> Polygons:
-    """Return the closed outlines of sectors that reach to the given radii.
+def sector_polygons(
+    pieces: Pieces, points: FloatArray, radius: FloatArray, view: View
+) -> Polygons:
+    """Return the closed outlines of sectors, those of each reading once or twice.
 
     Parameters
     ----------
     pieces : Pieces
         Of N scans.
-    radii : ndarray of float64, shape (N, B)
-        Radius of each sector, by ascending bearing, px.
+    points : ndarray of float64, shape (2, 2, K, P)
+        x and y from the robot, px, of the start and the end of each piece, for K = 1 or
+        2 outlines of each scan.
+    radius : ndarray of float64, shape (K, P)
+        Radius of each piece, px.
     view : View
         The scans.
 
@@ -213,48 +192,14 @@ def polygons(pieces: Pieces, radii: FloatArray, view: View) -> Polygons:
     -------
     Polygons
     """
-    radius = radii.ravel()[pieces.beam]
-    first, last = run_ends(_differs(pieces, radius))
-    radius = radius[first]
-    return closed_polygons(
-        pieces.reading[first],
-        pieces.start.take(first, axis=1) * radius,
-        pieces.end.take(last, axis=1) * radius,
-        radius > OWN_RADIUS_PX,
-        radius,
-        view,
-    )
-
-
-def windows_of(pieces: Pieces, radii: FloatArray, view: View, grid: Grid) -> Windows:
-    """Return windows of cells that hold sectors that reach to the given radii.
-
-    Parameters
-    ----------
-    pieces, radii, view
-        As in `polygons`.
-    grid : Grid
-        All cells.
-
-    Returns
-    -------
-    Windows
-    """
-    first, _ = run_ends(pieces.reading[1:] != pieces.reading[:-1])
-    radius = radii.ravel()[pieces.beam]
-    # Of an arc within a quadrant, the ends lie farthest along either axis.
-    start, end = pieces.start * radius, pieces.end * radius
-    robot = np.array([view.x, view.y])
-    low, high = (
-        robot + beyond(beyond.reduceat(beyond(start, end), first, axis=1), 0.0)
-        for beyond in (np.minimum, np.maximum)
-    )
-    return windows_between(low, high, grid)
-
-
-def _differs(pieces: Pieces, radius: FloatArray) -> BoolArray:
-    """Return which pieces but the first cannot be joined to the one before."""
-    differs = radius[1:] != radius[:-1]
+    differs = np.ones(radius.shape, dtype=np.bool_)
+    np.not_equal(radius[:, 1:], radius[:, :-1], out=differs[:, 1:])
     for key in (pieces.reading, pieces.turns):
-        differs |= key[1:] != key[:-1]
-    return np.asarray(differs)
+        differs[:, 1:] |= key[1:] != key[:-1]
+    # Pieces that do not differ are joined to the one before.
+    first, last = run_ends(differs.ravel()[1:])
+    owner = np.concatenate([pieces.reading, pieces.reading + view.size])[first]
+    corner = np.array([first, last + radius.size])
+    ends = points.reshape(2, -1).take(corner, axis=1)
+    arc = radius.ravel()[first]
+    return closed_polygons(owner, ends, arc > OWN_RADIUS_PX, arc, view)
