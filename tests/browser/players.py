@@ -31,9 +31,12 @@ def shown(player, *names):
     return [int(data[name]) for name in names]
 
 
-def inspect(player):
-    """State of the player: hover, pin, scale, log-odds, the pinned history."""
-    return player.evaluate("root => root.inspect()")
+def inspect(player, name):
+    """One of the player's numbers: hover, pin, scale, log-odds, the pinned history.
+
+    All of them are some 10,000 numbers twice over, half a second for Playwright.
+    """
+    return player.evaluate("(root, name) => root.inspect()[name]", name)
 
 
 def scrub(player, step):

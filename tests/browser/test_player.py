@@ -40,17 +40,17 @@ def test_scores_are_those_of_occsim_at_any_step_and_prior(page, app_url, rule):
         prior_map = prior_from_cells(is_wall, log.grid, prior)
         for step in (0, 1, 137, log.n_readings, 136):
             scrub(player, step)
-            numbers = inspect(player)
             now = fuse(log, prior_map, rule, n_readings=step)
             for name, region in REGIONS.items():
                 at = score(now, truth, region)
                 counts = [at.tp, at.fp, at.fn, at.tn]
-                assert numbers[name]["counts"] == counts, (step, name)
+                numbers = inspect(player, name)
+                assert numbers["counts"] == counts, (step, name)
                 bits = log_loss(now, truth, region)
-                found = numbers[name]["bits"]
+                found = numbers["bits"]
                 assert found == pytest.approx(bits, abs=1e-9) or np.isnan(bits)
             everywhere = log_loss(now, truth, Region.ALL)
-            assert numbers["bits"] == pytest.approx(everywhere, abs=1e-9)
+            assert inspect(player, "bits") == pytest.approx(everywhere, abs=1e-9)
             assert shown(player, "explored") == [int((now.n_updates > 0).sum())]
 
 
@@ -82,7 +82,7 @@ def test_log_odds_are_those_of_occsim_after_walking_both_ways(page, app_url, rul
     prior_map = prior_from_cells(is_wall, log.grid, Prior(p_wall=0.2, p_space=0.9))
     for step in (300, 37, 212):
         scrub(player, step)
-        values = inspect(player)["logOdds"]
+        values = inspect(player, "logOdds")
         expected = fuse(log, prior_map, rule, n_readings=step).log_odds
         np.testing.assert_array_equal(values, expected.ravel())
 
@@ -156,7 +156,7 @@ def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
     scrub(player, log.n_readings)
     entries = np.flatnonzero(log.cell == cell)
     l_0 = float(logit(0.18))
-    history = inspect(player)["history"]
+    history = inspect(player, "history")
     assert history["prior"] == l_0
     assert [t["reading"] for t in history["terms"]] == log.reading[entries].tolist()
     added = [term["added"] for term in history["terms"]]
@@ -169,7 +169,7 @@ def test_a_pinned_cell_shows_the_term_of_each_of_its_readings(page, app_url):
 
     first = int(log.reading[entries[0]])
     box = player.locator("[data-part=terms]").bounding_box()
-    page.mouse.click(box["x"] + inspect(player)["bars"][1], box["y"] + 20)
+    page.mouse.click(box["x"] + inspect(player, "bars")[1], box["y"] + 20)
     assert shown(player, "step") == [first + 1]
     page.keyboard.press("Escape")
     assert player.locator("[data-part=tiles]").is_visible()
@@ -191,7 +191,7 @@ def test_hovering_shows_a_cells_numbers_on_both_pictures(page, app_url):
     assert f"declared\t{'wall' if final < -1e-9 else 'no wall'}" in text.replace(
         "\n", "\t"
     )
-    assert inspect(player)["hover"] == cell
+    assert inspect(player, "hover") == cell
 
 
 def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
@@ -199,11 +199,11 @@ def test_cells_can_be_inspected_and_pinned_by_keyboard(page, app_url):
     player.locator("[data-pane=map] canvas").focus()
     before = shown(player, "step")
     page.keyboard.press("ArrowRight")
-    first = inspect(player)["hover"]
+    first = inspect(player, "hover")
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     n_cols = run()[0].grid.n_cols
-    assert inspect(player)["pin"] == first + n_cols
+    assert inspect(player, "pin") == first + n_cols
     assert shown(player, "step") == before
 
 
@@ -316,7 +316,7 @@ def test_a_pinned_cell_outlives_a_change_of_each_setting(page, app_url, name):
     row, col = divmod(cell, log.grid.n_cols)
     x, y = (col + 0.5) * CELL_PX, (row + 0.5) * CELL_PX
     pinned = int(y // now.cell_px) * now.n_cols + int(x // now.cell_px)
-    assert inspect(player)["pin"] == pinned
+    assert inspect(player, "pin") == pinned
     row, col = divmod(pinned, now.n_cols)
     title = player.locator("[data-part=cell-name]").inner_text()
     assert title == f"Cell row {row}, column {col}"
@@ -375,7 +375,7 @@ def test_a_screen_reader_hears_the_pinned_cell(page, app_url):
     wait_until(page, player, "root => root.heard.length > 1")
     *_, pinned = player.evaluate("root => root.heard")
     n_cols = run()[0].grid.n_cols
-    row, col = divmod(inspect(player)["pin"], n_cols)
+    row, col = divmod(inspect(player, "pin"), n_cols)
     for said in (hovered, pinned):
         assert f"Cell row {row}, column {col}: class " in said
         assert "p_free 0." in said

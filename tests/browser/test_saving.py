@@ -125,13 +125,13 @@ def test_the_link_in_a_figure_opens_what_the_figure_shows(page, app_url):
     player = open_player(page, app_url, f"&step={STEP}&overlay=errors")
     player.locator("[data-do=forward]").click()
     data, _ = saved(page, "SVG")
-    before = inspect(player)["maps"]
+    before = inspect(player, "maps")
     facts = json.loads(ElementTree.fromstring(data).find(f"{SVG}metadata").text)
     page.goto(facts["link"])
     page.wait_for_selector(f"{ROOT}[data-ready='1']")
     player = page.locator(ROOT)
     assert shown(player, "step") == [STEP + 1]
-    assert inspect(player)["maps"] == before
+    assert inspect(player, "maps") == before
 
 
 def test_a_figure_as_png_has_the_colours_of_the_map_and_its_facts(page, app_url):

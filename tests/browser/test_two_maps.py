@@ -107,7 +107,7 @@ def test_an_answer_starts_the_tour_which_lasts_ten_seconds(page, app_url):
     wait_until(page, player, "root => root.ended")
     assert 9 < player.evaluate("root => (root.ended - root.began) / 1000") < 15
     maps = [of.map(Prior(), rule) for rule in (ONCE, SUBTRACT)]
-    for numbers, now in zip(inspect(player)["maps"], maps, strict=True):
+    for numbers, now in zip(inspect(player, "maps"), maps, strict=True):
         assert_map(numbers, now, of.truth_cells)
     scores = [of.scores(Prior(), rule) for rule in (ONCE, SUBTRACT)]
     found = [f"{at.tp} of {at.tp + at.fn}" for at in scores]
@@ -183,7 +183,7 @@ def test_another_drawing_for_one_map_sends_its_walls_and_no_readings(page, app_u
     assert sent == ["walls"]
     mirrored = run(drawing="mirrored")
     assert_map(
-        inspect(player)["maps"][1],
+        inspect(player, "maps")[1],
         mirrored.map(Prior(), SUBTRACT, 200),
         mirrored.truth_cells,
     )
@@ -206,18 +206,18 @@ def test_prior_and_rule_are_changed_in_the_header(page, app_url):
     p_wall, p_space = calibrated_prior(of.wall_cells, of.truth_cells)
     calibrated = Prior(p_wall=p_wall, p_space=p_space, scale=1.0)
     assert_map(
-        inspect(player)["maps"][1], of.map(calibrated, ONCE, 200), of.truth_cells
+        inspect(player, "maps")[1], of.map(calibrated, ONCE, 200), of.truth_cells
     )
     choose_word(player, 1, "pair", "hand")
     player.locator("[data-header='1'] [data-hand=p_wall]").fill("0.55")
     assert_map(
-        inspect(player)["maps"][1],
+        inspect(player, "maps")[1],
         of.map(Prior(p_wall=0.55), ONCE, 200),
         of.truth_cells,
     )
     choose_word(player, 1, "drawing", "none")
     assert_map(
-        inspect(player)["maps"][1],
+        inspect(player, "maps")[1],
         of.map(Prior.uninformative(), ONCE, 200),
         of.truth_cells,
     )
@@ -228,7 +228,7 @@ def test_maps_of_other_cells_are_compared_in_pixels_which_the_page_says(page, ap
     player = open_maps(page, app_url, f"?step={step}&columns=--z5")
     runs = run(), run(5)
     maps = [one.map(Prior(), ONCE, step) for one in runs]
-    for numbers, now, of in zip(inspect(player)["maps"], maps, runs, strict=True):
+    for numbers, now, of in zip(inspect(player, "maps"), maps, runs, strict=True):
         assert_map(numbers, now, of.truth_cells)
     height, width = runs[0].building.world.occupied.shape
 
@@ -283,9 +283,9 @@ def test_a_count_pins_the_next_such_cell_whose_ladders_end_at_the_maps(page, app
     pinned = []
     for _ in range(2):
         player.locator("[data-count='looked 1']").click()
-        pinned.append(inspect(player)["pin"])
+        pinned.append(inspect(player, "pin"))
     assert pinned == [cells[0], cells[1 % cells.size]]
-    for i, numbers in enumerate(inspect(player)["maps"]):
+    for i, numbers in enumerate(inspect(player, "maps")):
         history = numbers["history"]
         total = maps[i].log_odds.flat[pinned[-1]]
         assert history["terms"][-1]["total"] == total
