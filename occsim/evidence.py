@@ -1,7 +1,7 @@
 """The evidence log: what the readings say, before any prior."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -22,7 +22,7 @@ from occsim.rays.scan import (
     seen_polygons,
     windows_of,
 )
-from occsim.rays.surface import count_surface, own_pixels
+from occsim.rays.surface import count_surface, robots_on_centres
 from occsim.sensor import BehindHit, Sensor, inverse_sensor_model
 from occsim.trajectory import Trajectory
 from occsim.world import World
@@ -251,8 +251,7 @@ def faces_of(world: World) -> WallFaces:
     return faces
 
 
-@dataclass(frozen=True, eq=False)
-class PixelCounts:
+class PixelCounts(NamedTuple):
     """What a batch of N readings sees of the cells around, counted in pixels.
 
     Parameters
@@ -343,9 +342,14 @@ def _count(
         n_object = counts[1] - n_empty
     else:
         n_object = count_surface(outline, seen, world.occupied, windows, view)
-    counter, is_wall = own_pixels(world.occupied, windows, view)
-    n_empty[counter] += ~is_wall
-    n_object[counter] += is_wall
+    # A pixel whose centre is the robot is in view whatever the heading. It has no
+    # bearing: it is object if it is wall, and empty otherwise.
+    reading, row, col = robots_on_centres(grid, view)
+    if reading.size:
+        counter = windows.pixel_counters(reading, row, col)
+        is_wall = world.occupied[row, col]
+        n_empty[counter] += ~is_wall
+        n_object[counter] += is_wall
     return PixelCounts(done, windows, n_empty, n_object)
 
 

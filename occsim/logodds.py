@@ -71,7 +71,12 @@ def logit(p_free: npt.ArrayLike) -> FloatArray:
     """
     p = real_array("p_free", p_free)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return on_lattice(np.log(p) - np.log1p(-p))
+        return logit_inside(p)
+
+
+def logit_inside(p_free: FloatArray) -> FloatArray:
+    """Return `logit` of probabilities that are known to lie inside (0, 1)."""
+    return on_lattice(np.log(p_free) - np.log1p(-p_free))
 
 
 def p_free_from_log_odds(log_odds: npt.ArrayLike) -> FloatArray:

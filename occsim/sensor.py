@@ -9,7 +9,7 @@ import numpy.typing as npt
 from occsim._types import FloatArray
 from occsim.errors import ParameterError, choice, real_number
 from occsim.grid import Grid
-from occsim.logodds import logit
+from occsim.logodds import logit, logit_inside
 
 P_FREE_MAX = 0.9
 P_FREE_MIN = 0.1
@@ -133,7 +133,7 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
 
     Parameters
     ----------
-    n_empty, n_object : array_like of int
+    n_empty, n_object : array_like of int, of one shape
         Pixels of the cell in view nearer than the hit, and at it or beyond; at least
         one of the two is positive.
 
@@ -149,13 +149,14 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     >>> inverse_sensor_model([9, 2, 0], [0, 1, 9]).round(3)  # 0.9, 2/3, 0.1
     array([ 2.197,  0.693, -2.197])
     """
-    empty, objects = np.broadcast_arrays(n_empty, n_object)
+    n_empty, n_object = np.asarray(n_empty), np.asarray(n_object)
     # Eq. 4.22, first and second case: most cells are all empty or all object.
-    log_odds = np.where(empty > 0, LOG_ODDS_MAX, LOG_ODDS_MIN)
-    mixed = np.flatnonzero((empty > 0) & (objects > 0))
+    any_empty = n_empty > 0
+    log_odds = np.where(any_empty, LOG_ODDS_MAX, LOG_ODDS_MIN)
+    mixed = any_empty & (n_object > 0)
     # Third case: the empty share. Clipping is our interpretation: unclipped, a cell 99
     # % empty would count for more than an empty one.
-    n_empty, n_object = empty.reshape(-1)[mixed], objects.reshape(-1)[mixed]
-    q = n_empty / (n_empty + n_object)
-    log_odds.reshape(-1)[mixed] = logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))
+    empty, objects = n_empty[mixed], n_object[mixed]
+    q = np.minimum(np.maximum(empty / (empty + objects), P_FREE_MIN), P_FREE_MAX)
+    log_odds[mixed] = logit_inside(q)
     return log_odds

@@ -1,6 +1,6 @@
 """The outline of what each reading sees: its nearest faces, bearing by bearing."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,8 +20,7 @@ NO_FACE = -1
 _TURNS = np.array(CARDINAL_HEADINGS_RAD)[:, None]
 
 
-@dataclass(frozen=True, eq=False)
-class Outline:
+class Outline(NamedTuple):
     """Pieces of bearing in each of which one face, or none within reach, is nearest.
 
     Parameters
@@ -36,16 +35,18 @@ class Outline:
         chord comes near the robot.
     begin : ndarray of float64, shape (P,)
         Bearing at which the piece starts, relative to the heading, rad.
+    ahead_min : ndarray of float64, shape (K,)
+        `SeenFaces.ahead_min`.
     """
 
     reading: IntArray
     face: IntArray
     ends: FloatArray
     begin: FloatArray
+    ahead_min: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class _Intervals:
+class _Intervals(NamedTuple):
     """What lies between neighbouring bearings at which any face begins or ends.
 
     Shapes (J,): reading, bearings begin and end relative to the heading, unit vector
@@ -77,16 +78,22 @@ def trace_outline(faces: SeenFaces, view: View) -> Outline:
     -------
     Outline
     """
-    intervals = _intervals(faces, view)
-    return _merged(intervals, _nearest(faces, intervals), view)
+    intervals, least = _intervals(faces, view), faces.ahead_min()
+    nearest = _nearest(faces, intervals, least)
+    first, last, owner = _runs(intervals, nearest)
+    begin = intervals.begin[first]
+    bearings = np.array([begin, intervals.end[last]])
+    ends = unit_vectors(bearings, view.theta[owner])
+    return Outline(owner, nearest[first], ends, begin, least)
 
 
 def _intervals(faces: SeenFaces, view: View) -> _Intervals:
     """Return the intervals between all ends of faces, sorted within each reading."""
     n, k = view.size, faces.size
-    edge = np.full(n, view.half)
-    turns = cardinal_cuts(view).ravel()
-    bearing = np.concatenate([-edge, edge, turns, faces.bearing.ravel()])
+    bearing = np.empty(6 * n + 2 * k)
+    bearing[:n], bearing[n : 2 * n] = -view.half, view.half
+    bearing[2 * n : 6 * n] = cardinal_cuts(view).ravel()
+    bearing[6 * n :] = faces.bearing.ravel()
     owner = np.concatenate([np.arange(n)] * 6 + [faces.reading] * 2)
     # One sort for all readings: bearings lie within pi of 0, so 8 keeps them apart.
     order = (8.0 * owner + bearing).argsort()
@@ -113,7 +120,9 @@ def cardinal_cuts(view: View) -> FloatArray:
     return np.minimum(np.maximum(turns, -view.half), view.half)
 
 
-def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
+def _nearest(
+    faces: SeenFaces, intervals: _Intervals, ahead_min: FloatArray
+) -> IntArray:
     """Return the nearest face of each interval, or NO_FACE, shape (J,)."""
     n_intervals = intervals.reading.size
     distance = np.full(n_intervals, np.inf)
@@ -121,7 +130,7 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
     # How far ahead a middle points, by the side that is looked at: one gather a pair.
     x, y = intervals.middle_x, intervals.middle_y
     ahead = np.concatenate([x, y, -x, -y])
-    offset, least = faces.side * n_intervals, faces.ahead_min
+    offset = faces.side * n_intervals
     covered = (intervals.stop - intervals.first).cumsum()
     n_chunks = (int(covered[-1]) if covered.size else 0) // PAIRS_AT_ONCE
     cuts = covered.searchsorted(np.arange(1, n_chunks + 1) * PAIRS_AT_ONCE, "right")
@@ -131,7 +140,7 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
             intervals.first[start:stop], intervals.stop[start:stop]
         )
         pair += start
-        cosine = np.maximum(ahead[offset[pair] + interval], least[pair])
+        cosine = np.maximum(ahead[offset[pair] + interval], ahead_min[pair])
         z = faces.depth[pair] / cosine
         np.minimum.at(distance, interval, z)
         wins = z == distance[interval]
@@ -140,17 +149,16 @@ def _nearest(faces: SeenFaces, intervals: _Intervals) -> IntArray:
     return nearest
 
 
-def _merged(intervals: _Intervals, nearest: IntArray, view: View) -> Outline:
-    """Return the outline with intervals of one face joined to one piece."""
+def _runs(
+    intervals: _Intervals, nearest: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Return first and last of the intervals that make one piece, and its reading."""
     quadrant = 2 * (intervals.middle_x > 0) + (intervals.middle_y > 0)
     reading = intervals.reading
     differs = (reading[1:] != reading[:-1]) | (nearest[1:] != nearest[:-1])
     differs |= quadrant[1:] != quadrant[:-1]
     first, last = run_ends(differs)
-    owner, begin = reading[first], intervals.begin[first]
-    bearings = np.array([begin, intervals.end[last]])
-    ends = unit_vectors(bearings, view.theta[owner])
-    return Outline(reading=owner, face=nearest[first], ends=ends, begin=begin)
+    return first, last, reading[first]
 
 
 def run_ends(differs: BoolArray) -> tuple[IntArray, IntArray]:
@@ -178,49 +186,48 @@ def unit_vectors(bearing: FloatArray, theta: FloatArray) -> FloatArray:
     return np.array([np.cos(absolute), np.sin(absolute)])
 
 
-def points_on_faces(
-    faces: SeenFaces, face: IntArray, directions: FloatArray
-) -> FloatArray:
-    """Return where rays meet faces.
+def points_on_faces(outline: Outline, faces: SeenFaces, piece: IntArray) -> FloatArray:
+    """Return where pieces of an outline start and end on their faces.
 
     Parameters
     ----------
+    outline : Outline
+        Pieces of bearing.
     faces : SeenFaces
-        Faces in view.
-    face : ndarray of int64, shape (Q,)
-        One of them for each pair of rays.
-    directions : ndarray of float64, shape (2, 2, Q)
-        x and y of unit vectors along two rays each. One may pass its face's end by the
+        Their faces.
+    piece : ndarray of int64, shape (Q,)
+        Those wanted; each has a face. A bearing may pass the face's end by the
         tolerance; the point then lies on the face's prolongation.
 
     Returns
     -------
     ndarray of float64, shape (2, 2, Q)
-        x and y of the points, from the robot, px.
+        x and y from the robot, px, of start and end.
     """
+    face = outline.face[piece]
     side, depth = faces.side[face], faces.depth[face]
     cos, sin = SIDE_COS[side], SIDE_SIN[side]
-    sideways = depth * lateral_slopes(faces, face, directions)
+    sideways = depth * lateral_slopes(outline, faces, piece)
     return np.array([depth * cos - sideways * sin, depth * sin + sideways * cos])
 
 
-def lateral_slopes(
-    faces: SeenFaces, face: IntArray, directions: FloatArray
-) -> FloatArray:
+def lateral_slopes(outline: Outline, faces: SeenFaces, piece: IntArray) -> FloatArray:
     """Return how far sideways rays move per step ahead, in their face's frame.
 
     Parameters
     ----------
-    faces, face, directions
+    outline, faces, piece
         As in `points_on_faces`.
 
     Returns
     -------
     ndarray of float64, shape (2, Q)
-        The tangents of the angles between rays and looking direction.
+        The tangents of the angles between looking direction and the rays at which the
+        pieces start and end.
     """
-    x, y = directions
+    x, y = outline.ends.take(piece, axis=2)
+    face = outline.face[piece]
     side = faces.side[face]
     cos, sin = SIDE_COS[side], SIDE_SIN[side]
-    ahead = np.maximum(x * cos + y * sin, faces.ahead_min[face])
+    ahead = np.maximum(x * cos + y * sin, outline.ahead_min[face])
     return np.asarray((y * cos - x * sin) / ahead, dtype=np.float64)

@@ -23,7 +23,7 @@ def ragged_ranges(first: IntArray, stop: IntArray) -> tuple[IntArray, IntArray]:
     sizes = np.maximum(stop - first, 0)
     owner = np.arange(first.size).repeat(sizes)
     value = np.arange(owner.size)
-    value += (first - sizes.cumsum() + sizes).repeat(sizes)
+    value += (first + sizes - sizes.cumsum())[owner]
     return owner, value
 
 

@@ -1,8 +1,6 @@
 """The faces that each reading of a batch can see: within reach, within the cone."""
 
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -16,8 +14,8 @@ SIDE_COS = np.array([1.0, 0.0, -1.0, 0.0])
 SIDE_SIN = np.array([0.0, 1.0, 0.0, -1.0])
 """Unit vector of each side's looking direction (right, down, left, up), exactly."""
 
-# The axis, x or y, of each side's looking direction.
-_ALONG = np.array([0, 1, 0, 1])
+# The axis, x or y, of each side's looking direction, and the other one.
+_ALONG, _ACROSS = np.array([0, 1, 0, 1]), np.array([1, 0, 1, 0])
 
 # Of each quadrant, whether its pixel lies before the robot, along x and along y.
 _QUADRANT_X, _QUADRANT_Y = np.array([0, 1, 1, 0]), np.array([0, 0, 1, 1])
@@ -27,8 +25,7 @@ REACH_MAX_PX = 1e6
 not vanish beside its square."""
 
 
-@dataclass(frozen=True, eq=False)
-class View:
+class View(NamedTuple):
     """Where a batch of readings is taken, and how far and wide each one looks.
 
     Parameters
@@ -69,8 +66,7 @@ class View:
         return self.theta.size
 
 
-@dataclass(frozen=True, eq=False)
-class SeenFaces:
+class SeenFaces(NamedTuple):
     """Faces from where the robot stands, cut to its reach and field of view.
 
     In the frame of its side a face is the line ``depth`` ahead, from ``low`` to
@@ -112,9 +108,8 @@ class SeenFaces:
             self.bearing.take(which, axis=1),
         )
 
-    @cached_property
     def ahead_min(self) -> FloatArray:
-        """The least cosine between looking direction and a point of each face.
+        """Return the least cosine between looking direction and a point of each face.
 
         Shape (K,), in (0, 1]; bounds the division that places a bearing on the face.
         """
@@ -154,16 +149,17 @@ def seen_faces(faces: WallFaces, occupied: BoolArray, view: View) -> SeenFaces:
         Faces that hide one another are all there.
     """
     seen = _in_field_of_view(_in_reach(faces, view), view.half)
-    around = first_pixel_is_wall(occupied, view)
-    if not around.any():
+    reading, quadrant = first_pixel_is_wall(occupied, view).nonzero()
+    if not reading.size:
         return seen
-    return _joined(seen, _in_field_of_view(_wall_at_robot(around, view), view.half))
+    here = _wall_at_robot(reading, quadrant, view)
+    return _joined(seen, _in_field_of_view(here, view.half))
 
 
 def _in_reach(faces: WallFaces, view: View) -> SeenFaces:
     """Return the faces that come within reach of each reading."""
     n, n_places = view.size, faces.first_at.shape[1]
-    along, across = view.places[_ALONG], view.places[1 - _ALONG]
+    along, across = view.places[_ALONG], view.places[_ACROSS]
     # A face in line with the robot cannot stop a ray: depths run from EDGE_EPS.
     reach = np.array([view.reach, view.reach, -EDGE_EPS, -EDGE_EPS])[:, None]
     # Faces lie at whole positions: the first within, and the first beyond.
@@ -232,9 +228,8 @@ def first_pixel_is_wall(occupied: BoolArray, view: View) -> BoolArray:
     return np.asarray((inside & occupied[row, col]).T)
 
 
-def _wall_at_robot(around: BoolArray, view: View) -> SeenFaces:
+def _wall_at_robot(reading: IntArray, quadrant: IntArray, view: View) -> SeenFaces:
     """Return faces of depth 0 for the quadrants in which wall begins at once."""
-    reading, quadrant = np.nonzero(around)
     ends = np.zeros((2, reading.size))
     ends[1] = 0.5 * np.pi
     bearing = _relative_bearings(quadrant, ends, view.theta[reading])
@@ -244,10 +239,11 @@ def _wall_at_robot(around: BoolArray, view: View) -> SeenFaces:
 def _in_field_of_view(faces: SeenFaces, half: float) -> SeenFaces:
     """Return the faces cut to bearings within half of the heading."""
     # Behind the robot bearings jump from pi to -pi: such a face is seen at both ends.
-    across = (faces.bearing[1] > np.pi).nonzero()[0]
+    turned = faces.bearing - 2.0 * np.pi
+    across = (turned[1] > -half).nonzero()[0]
     if across.size:
-        behind = faces.take(across)
-        faces = _joined(faces, replace(behind, bearing=behind.bearing - 2.0 * np.pi))
+        behind = faces._replace(bearing=turned).take(across)
+        faces = _joined(faces, behind)
     bearing = np.minimum(np.maximum(faces.bearing, -half), half)
     kept = (bearing[0] < bearing[1]).nonzero()[0]
-    return replace(faces, bearing=bearing).take(kept)
+    return faces._replace(bearing=bearing).take(kept)

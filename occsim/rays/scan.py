@@ -5,8 +5,8 @@ crossing says that all pixels to its right change sides; cells are counted from 
 changes alone, by summing along each row of cells.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -28,8 +28,7 @@ OWN_RADIUS_PX = 1e-6
 counted by itself. Less than the distance of any other centre, far above rounding."""
 
 
-@dataclass(frozen=True, eq=False)
-class Windows:
+class Windows(NamedTuple):
     """The cells that each reading of a batch may reach: windows of one size.
 
     Parameters
@@ -140,14 +139,13 @@ def windows_between(low: FloatArray, high: FloatArray, grid: Grid) -> Windows:
     # Far outside the image, cells would overflow whole numbers.
     cells = np.floor(np.array([low - 1.0, high + 1.0]) / grid.cell_px)
     first, last = np.minimum(np.maximum(cells, 0.0), n_cells - 1)
-    length = (last - first).max(axis=1, keepdims=True) + 1
+    length = np.maximum.reduce(last - first, axis=1, keepdims=True) + 1
     first_col, first_row = np.minimum(first, n_cells - length).astype(np.int64)
     n_cols, n_rows = length.ravel().astype(int).tolist()
     return Windows(grid, first_row, first_col, n_rows, n_cols + 1)
 
 
-@dataclass(frozen=True, eq=False)
-class Polygons:
+class Polygons(NamedTuple):
     """Closed outlines: first one of each reading, then perhaps a second one of each.
 
     Parameters
@@ -206,9 +204,7 @@ def seen_polygons(
     ends = outline.ends[:, :, None] * radius
     at_face = (~is_open).nonzero()[0]
     at_face = at_face[faces.depth[outline.face[at_face]] > 0.0]
-    ends[:, :, 0, at_face] = points_on_faces(
-        faces, outline.face[at_face], outline.ends.take(at_face, axis=2)
-    )
+    ends[:, :, 0, at_face] = points_on_faces(outline, faces, at_face)
     owner = np.concatenate([outline.reading, outline.reading + view.size][: 1 + whole])
     ends = ends.reshape(2, 2, -1)
     return closed_polygons(owner, ends, is_arc.ravel(), view.reach, view)
@@ -305,7 +301,7 @@ def count_pixels(polygons: Polygons, windows: Windows, view: View) -> CountArray
     if grid.cell_px > 1:
         np.add.at(changes, counter + 1, left)
     by_row = changes[:-1].reshape(-1, windows.n_cols)
-    np.cumsum(by_row, axis=1, out=by_row)
+    np.add.accumulate(by_row, axis=1, out=by_row)
     return by_row.reshape(-1, windows.size)
 
 
@@ -345,22 +341,23 @@ def _crossings(
     # and of the arcs those are the ones on the right.
     falls = last > first
     sign = np.where(falls, _LEFT, _RIGHT)[edge]
-    line, arc = np.split(edge, [edge.searchsorted(n_lines)])
+    n_on_lines = edge.searchsorted(n_lines)
+    line, arc = edge[:n_on_lines], edge[n_on_lines:]
     x = np.empty(edge.size)
     # From the upper end whichever way an edge is walked: the two sides of the seam of
     # a full turn then cancel to the last bit.
-    begins, ends = polygons.corners[:, np.array([start, end])[:, :n_lines]].transpose(
-        1, 0, 2
+    begins, ends = (
+        polygons.corners.take(corner[:n_lines], axis=1) for corner in (start, end)
     )
     top = np.where(falls[:n_lines], begins, ends)
     width, height = ends - begins
     slope = width / np.where(height == 0.0, 1.0, height)
     above = shift[:n_lines] + top[1]
-    x[: line.size] = top[0][line] + (row[: line.size] - above[line]) * slope[line]
-    y = row[line.size :] - shift[arc]
+    x[:n_on_lines] = top[0][line] + (row[:n_on_lines] - above[line]) * slope[line]
+    y = row[n_on_lines:] - shift[arc]
     radius = polygons.radius
     if isinstance(radius, np.ndarray):
         radius = radius[start[n_lines:]][arc - n_lines]
-    x[line.size :] = -sign[line.size :] * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
+    x[n_on_lines:] = -sign[n_on_lines:] * np.sqrt(np.maximum(radius**2 - y * y, 0.0))
     owner = polygons.owner[start][edge]
     return owner, row, x + robots[0][owner], sign

@@ -43,9 +43,8 @@ def count_surface(
     """
     pieces = np.flatnonzero(outline.face != NO_FACE)
     pieces = pieces[faces.depth[outline.face[pieces]] > 0.0]
-    face = outline.face[pieces]
-    cut = faces.take(face)
-    slopes = lateral_slopes(faces, face, outline.ends.take(pieces, axis=2))
+    cut = faces.take(outline.face[pieces])
+    slopes = lateral_slopes(outline, faces, pieces)
     found = [_wall_next_to_robot(occupied, view)]
     # Centres lie 0.5, 1.5, ... px behind their face: no others can be near enough.
     for behind in range(int(SURFACE_DEPTH_PX + 0.5)):
@@ -125,33 +124,6 @@ def _is_wall(occupied: BoolArray, row: IntArray, col: IntArray) -> IntArray:
     return which[occupied[row[which], col[which]]]
 
 
-def own_pixels(
-    occupied: BoolArray, windows: Windows, view: View
-) -> tuple[IntArray, BoolArray]:
-    """Return the counter of each robot's own pixel, and whether it is wall.
-
-    A pixel whose centre is the robot is in view whatever the heading. It has no
-    bearing: it is object if it is wall, and empty otherwise.
-
-    Parameters
-    ----------
-    occupied : ndarray of bool, shape (H, W)
-        Wall pixels.
-    windows : Windows
-        Cells to count in.
-    view : View
-        N readings; only robots in the image that stand on a pixel's centre count.
-
-    Returns
-    -------
-    counter : ndarray of int64, shape (Q,)
-        No counter twice.
-    is_wall : ndarray of bool, shape (Q,)
-    """
-    reading, row, col = robots_on_centres(windows.grid, view)
-    return windows.pixel_counters(reading, row, col), occupied[row, col]
-
-
 def robots_on_centres(grid: Grid, view: View) -> tuple[IntArray, IntArray, IntArray]:
     """Return which robots stand on the centre of a pixel, and on which.
 
@@ -167,9 +139,10 @@ def robots_on_centres(grid: Grid, view: View) -> tuple[IntArray, IntArray, IntAr
     reading, row, col : ndarray of int64, shape (Q,)
     """
     pixel = np.floor(view.places)
-    own = np.hypot(*(view.places - pixel - 0.5)) <= OWN_PIXEL_EPS_PX
-    size = np.array([[grid.width_px], [grid.height_px]])
-    own &= ((pixel >= 0) & (pixel < size)).all(axis=0)
-    reading = own.nonzero()[0]
+    reading = (np.hypot(*(view.places - pixel - 0.5)) <= OWN_PIXEL_EPS_PX).nonzero()[0]
+    if reading.size:  # few robots stand on a centre
+        x, y = pixel[:, reading]
+        inside = (x >= 0) & (y >= 0) & (x < grid.width_px) & (y < grid.height_px)
+        reading = reading[inside]
     col, row = pixel[:, reading].astype(np.int64)
     return reading, row, col

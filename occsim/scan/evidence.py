@@ -1,11 +1,10 @@
 """From scans to evidence: Eq. 4.22 for the sectors of beams."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
-from occsim._types import FloatArray, IntArray, Progress
+from occsim._types import BoolArray, FloatArray, Progress
 from occsim.errors import expect
 from occsim.evidence import (
     COUNTERS_AT_ONCE,
@@ -18,7 +17,7 @@ from occsim.evidence import (
 from occsim.evidence_log import EvidenceLog
 from occsim.grid import Grid
 from occsim.rays.reach import View
-from occsim.rays.scan import Windows, count_pixels, windows_of
+from occsim.rays.scan import count_pixels, windows_of
 from occsim.rays.surface import robots_on_centres
 from occsim.scan.log import ScanLog
 from occsim.scan.sectors import (
@@ -120,7 +119,7 @@ def scan_counts(scan_log: ScanLog, sensor: Sensor, grid: Grid) -> Iterator[Pixel
     for stop in _ends_of_batches(scan_log.ranges_px, view.reach, grid):
         part = slice(start, stop)
         ranges = scan_log.ranges_px[part][:, sectors.order]
-        batch = replace(view, places=view.places[:, part], theta=view.theta[part])
+        batch = view._replace(places=view.places[:, part], theta=view.theta[part])
         yield count_scans(ranges, sectors, batch, sensor, grid, stop)
         start = stop
 
@@ -159,24 +158,20 @@ def count_scans(
     polygons = sector_polygons(pieces, points, radius, view)
     n_empty, in_view = count_pixels(polygons, windows, view)
     n_object = np.subtract(in_view, n_empty, out=in_view)
-    for counters, counter in zip(
-        (n_empty, n_object), _own_pixels(ranges_px, windows, view), strict=True
-    ):
-        counters[counter] += 1
+    reading, row, col = robots_on_centres(grid, view)
+    if reading.size:
+        counter = windows.pixel_counters(reading, row, col)
+        is_empty, is_object = _own_pixels(ranges_px[reading])
+        n_empty[counter] += is_empty
+        n_object[counter] += is_object
     return PixelCounts(done, windows, n_empty, n_object)
 
 
-def _own_pixels(
-    ranges_px: FloatArray, windows: Windows, view: View
-) -> tuple[IntArray, IntArray]:
-    """Return the counters of the robots' own pixels: those empty, those object."""
-    reading, row, col = robots_on_centres(windows.grid, view)
-    ranges = ranges_px[reading]
-    says = ~np.isnan(ranges)
-    in_wall = (~says | (ranges <= OWN_PIXEL_EPS_PX)).all(axis=1)
-    counter = windows.pixel_counters(reading, row, col)
-    says_any = says.any(axis=1)
-    return counter[says_any & ~in_wall], counter[says_any & in_wall]
+def _own_pixels(ranges_px: FloatArray) -> tuple[BoolArray, BoolArray]:
+    """Return whether the pixels on whose centre robots stand are empty, and object."""
+    says = ~np.isnan(ranges_px)
+    says_far = np.asarray((ranges_px > OWN_PIXEL_EPS_PX).any(axis=1))
+    return says_far, np.asarray(says.any(axis=1) & ~says_far)
 
 
 def _ends_of_batches(

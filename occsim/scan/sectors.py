@@ -126,7 +126,7 @@ def cut_pieces(sectors: Sectors, view: View) -> Pieces:
     cuts = np.empty((view.size, n_bounds + 4))
     cuts[:, :n_bounds], cuts[:, n_bounds:] = sectors.bounds, cardinal_cuts(view).T
     order = cuts.argsort(axis=1, kind="stable")
-    cuts = np.take_along_axis(cuts, order, axis=1)
+    cuts = cuts.ravel()[order + np.arange(0, cuts.size, n_bounds + 4)[:, None]]
     begins = (order < n_bounds).cumsum(axis=1)
     corner = unit_vectors(cuts, view.theta[:, None]).reshape(2, -1)
     reading, place = np.nonzero(cuts[:, 1:] - cuts[:, :-1] > SLIVER_RAD)

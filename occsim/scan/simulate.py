@@ -128,7 +128,7 @@ def _exact_ranges(
         met = seen.take(face.ravel()[hit])
         along = bearing.ravel()[hit]
         ahead = np.cos(along) * SIDE_COS[met.side] + np.sin(along) * SIDE_SIN[met.side]
-        z = met.depth / np.maximum(ahead, met.ahead_min)
+        z = met.depth / np.maximum(ahead, met.ahead_min())
         ranges = np.full(face.shape, np.inf)
         ranges.ravel()[hit] = np.where(z <= view.reach, z, np.inf)
         # What is met within the tolerance of the reach is met at it.

@@ -205,7 +205,9 @@ def _walk(
         # It turns on the spot from the heading it arrives with, clockwise on screen.
         looks = looks_at[which]
         facing = ways[-1] if ways.size else 0.0
-        looks = np.roll(looks, -int(np.argmin(np.abs(wrap_angle(looks - facing)))))
+        if looks.size > 1:
+            nearest = int(np.argmin(np.abs(wrap_angle(looks - facing))))
+            looks = np.roll(looks, -nearest)
         poses += [(*points[-1], look) for look in looks]
         here = nodes[-1:]
     return np.array(poses)

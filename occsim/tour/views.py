@@ -115,12 +115,16 @@ def best_views(views: Views, worth: FloatArray, most: int) -> IntArray:
         by worth. Fewer than `most` where nearly all that any view shows is seen; at
         least one.
     """
+    from scipy.sparse import csr_array  # here, because it takes long to import
+
     n_views = views.first.size - 1
-    owner = np.repeat(np.arange(n_views), np.diff(views.first))
-    by_cell = np.argsort(views.cell, kind="stable")
-    shown_by = owner[by_cell]
-    first = np.searchsorted(views.cell[by_cell], np.arange(worth.size + 1))
-    gain = np.bincount(owner, weights=worth[views.cell], minlength=n_views)
+    entries = np.ones(views.cell.size), views.cell, views.first
+    shows = csr_array(entries, shape=(n_views, worth.size))
+    gain = shows @ worth
+    # The other way round, the views that show each cell, in order: counting, which
+    # takes a fraction of the time of sorting.
+    by_cell = shows.tocsc()
+    first, shown_by = by_cell.indptr, by_cell.indices
     left = np.where(first[1:] > first[:-1], worth, 0.0)
     chosen = [int(np.argmax(gain >= _AS_GOOD * gain.max()))]
     rest = _ENOUGH * left.sum()

@@ -138,17 +138,20 @@ def _nearest_first(links: _Links) -> list[int]:
 def _improved(cost: FloatArray, order: list[int]) -> IntArray:
     """Reverse stretches of the walk while any reversal makes it shorter (2-opt)."""
     walk = np.array(order)
+    link = cost[walk[:-1], walk[1:]]
     for _ in range(_PASSES):
         before = walk.copy()
         for i in range(len(walk) - 2):
             # Reversing walk[i+1..j] replaces the links i to i+1 and j to j+1 by i to j
             # and i+1 to j+1; after the last position there is no link.
             here, ahead, later = walk[i], walk[i + 1], walk[i + 2 :]
-            gain = cost[here, ahead] - cost[here, later]
-            gain[:-1] += cost[later[:-1], later[1:]] - cost[ahead, later[1:]]
-            j = int(np.argmax(gain))
+            gain = link[i] - cost[here].take(later)
+            gain[:-1] += link[i + 2 :] - cost[ahead].take(later[1:])
+            j = int(gain.argmax())
             if gain[j] > _LEAST_GAIN:
                 walk[i + 1 : i + 3 + j] = walk[i + 1 : i + 3 + j][::-1].copy()
+                part = walk[i : i + 4 + j]
+                link[i : i + 3 + j] = cost[part[:-1], part[1:]]
         if np.array_equal(walk, before):
             break
     return walk
