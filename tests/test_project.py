@@ -4,7 +4,7 @@ import io
 import json
 import struct
 import zipfile
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -16,22 +16,34 @@ from occsim import (
     Building,
     Corrections,
     Drawing,
+    Registration,
     Sensor,
     Trajectory,
     load_drawing,
 )
 from occsim.io.images import class_png, mask_png, png
-from occsim.io.project import Project, ProjectError, dump_project, load_project
+from occsim.io.project import (
+    MAX_LOG_BYTES,
+    Project,
+    ProjectError,
+    RobotData,
+    dump_project,
+    load_project,
+)
 from occsim.io.project.archive import (
     CORRECTIONS,
     DRAWING,
     FOUND,
     JSON_NAME,
+    LOG,
     OLD_TRUTH,
+    TRACED,
     TRAJECTORY_NAME,
     TRUTH,
+    UNKNOWN,
     WALLS,
 )
+from occsim.io.project.robot import FIELDS
 from occsim.walls import WallParams
 
 SHAPE = (20, 30)
@@ -405,7 +417,82 @@ HOSTILE = {
         archive_with(json_with(settings={"a": 1})),
         "settings must be",
     ),
+    "another unknown": (
+        archive_with({UNKNOWN: mask_png(np.zeros((9, 9), bool))}),
+        "unknown.png must have the drawing's size",
+    ),
+    "a robot of words": (
+        archive_with(json_with(robot="no")),
+        "robot must be an object",
+    ),
+    "a long name of a log": (
+        archive_with(json_with(robot={"log_name": "x" * 5000})),
+        "log_name must be short text",
+    ),
+    "half a registration": (
+        archive_with(json_with(robot={"registration": {"scale": 1}})),
+        "registration must hold the numbers",
+    ),
+    "a registration of words": (
+        archive_with(json_with(robot={"registration": dict.fromkeys(FIELDS, "1")})),
+        "registration must hold the numbers",
+    ),
+    "a registration out of bounds": (
+        archive_with(json_with(robot={"registration": dict.fromkeys(FIELDS, 1e9)})),
+        "scale must lie in",
+    ),
+    "three points": (
+        archive_with(json_with(robot={"map_points": [[1, 2]] * 3})),
+        "map_points must be at most 2 points",
+    ),
+    "a point far off": (
+        archive_with(json_with(robot={"drawing_points": [[1, -2]]})),
+        "drawing_points must be at most 2 points",
+    ),
+    "an origin of two": (
+        archive_with(json_with(robot={"origin": [1, 2]})),
+        "origin must be x_m, y_m, yaw_rad",
+    ),
+    "a log too large": (
+        archive_with({LOG: b" " * 21_000_000}),
+        "log may unpack to at most 20 MB; got 21 MB",
+    ),
+    "traced walls that are none": (
+        archive_with({TRACED: b"GIF89a"}),
+        "traced.png must be a PNG image",
+    ),
+    "wide traced walls": (archive_with({TRACED: WIDE}), "each side of traced.png"),
 }
+
+
+def test_a_robots_data_opens_as_it_was_saved():
+    traced = np.zeros((33, 44), dtype=bool)
+    traced[3:9, 5] = True
+    robot = RobotData(
+        log=b"FLASER 1 2\n",
+        log_name="drive.log",
+        log_poses=b"0 0 0 0 0 0 0 1",
+        map_id="map 1",
+        registration=Registration(scale=0.4, rotation_rad=-1 / 3, shift_x_px=20.25),
+        drawing_points=((1.0, 2.5), (1 / 3, 7.0)),
+        map_points=((3.0, 4.0),),
+        traced=traced,
+        origin=(-1.5, 2.0, 0.1),
+    )
+    content = dump_project(Project(building=building(), robot=robot))
+    opened = load_project(content).robot
+    for one in fields(RobotData):
+        if one.name != "traced":
+            assert getattr(opened, one.name) == getattr(robot, one.name), one.name
+    np.testing.assert_array_equal(opened.traced, traced)
+    nothing = load_project(dump_project(Project(building=building()))).robot
+    assert all(not getattr(nothing, one.name) for one in fields(RobotData))
+
+
+def test_a_log_that_could_not_be_read_back_is_not_written():
+    large = RobotData(log=bytes(MAX_LOG_BYTES + 1))
+    with pytest.raises(ProjectError, match="log of a project may hold 20 MB"):
+        dump_project(Project(building=building(), robot=large))
 
 
 @pytest.mark.parametrize("kind", HOSTILE)

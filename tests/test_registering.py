@@ -127,6 +127,8 @@ def test_refine_and_undo_on_the_page():
     assert "Before: " + opening.strip("*.") in refined
     app = run(button(app, "Undo").click())
     assert agreement_of(app) == opening
+    app = run(button(app, "Redo").click())
+    assert agreement_of(app) == refined
 
 
 def points_commit(app, key, points):
@@ -146,7 +148,7 @@ def test_two_points_on_each_board_register_a_drawing_on_an_uploaded_log():
         # Taken after the script; in a browser, by a callback before it.
         app.session_state[key] = points_commit(app, key, points)
         app = run(run(app))
-    so_far = app.session_state["views"][registering.REGISTRATIONS]
+    so_far = app.session_state.robot.registrations
     assert so_far.map_points[1] == BoardPoint(x_px=10.0, y_px=30.0)
     # By hand: 100 px to the right become 20 px down.
     assert so_far.now.scale == pytest.approx(0.2)

@@ -23,9 +23,9 @@ from pages._ui.compute import with_walls
 from pages._ui.qr import qr_svg
 from pages._ui.settings import Settings
 from pages._ui.shared import Store, shared, size_of
-from pages._ui.state import chosen, edits, replay, works
+from pages._ui.state import chosen, edits, replay, robots, works
 from pages._ui.state.packed import Packed
-from pages._ui.state.works import Works
+from pages._ui.state.works import Work, Works
 from tests.test_pages import BUILD, ROOT, control, launch, png, rooms, said, upload
 
 YOURS = "pages/2_Your_building.py"
@@ -54,7 +54,7 @@ def session(monkeypatch):
         query_params = type("Query", (), {"to_dict": lambda self: {}})()
 
     more = state.lens, state.replay, state.widgets, state.pairs
-    more = *more, state.held, state.opening, state.classes
+    more = *more, state.held, state.opening, state.classes, robots
     for module in (chosen, edits, *more):
         monkeypatch.setattr(module, "st", Streamlit)
     monkeypatch.setattr(
@@ -415,32 +415,32 @@ def test_a_link_to_a_building_that_is_gone_says_so_and_keeps_the_settings():
 def test_a_session_from_a_link_edits_a_copy(session):
     state.edit(with_title("hers"))
     key = state.work_key()
-    assert works.WORKS.find(key).title == "hers"
+    assert works.WORKS.find(key).building.title == "hers"
     # Another session from the same link, then an edit there.
-    session.own, session.work = works.WORKS.find(key), None
+    session.own, session.work = works.WORKS.find(key).building, None
     state.edit(with_title("his"))
     other = state.work_key()
     assert other != key
-    assert works.WORKS.find(key).title == "hers"
+    assert works.WORKS.find(key).building.title == "hers"
 
 
 def test_a_building_that_is_too_large_is_not_kept():
     mine = replace(load_sample("d"))
-    assert Works(max_bytes=1000).keep(mine) is None
+    assert Works(max_bytes=1000).keep(Work(mine)) is None
 
 
 def test_the_store_forgets_the_oldest_when_it_is_full():
     mine = replace(load_sample("d"))
     store = Works(max_bytes=int(2.5 * len(Packed.of(mine).data)))
-    keys = [store.keep(mine) for _ in range(3)]
+    keys = [store.keep(Work(mine)) for _ in range(3)]
     assert store.find(keys[0]) is None
-    assert store.find(keys[2]).digest == mine.digest
+    assert store.find(keys[2]).building.digest == mine.digest
 
 
 def test_a_kept_building_takes_a_small_part_of_its_size_and_comes_back_whole():
     mine = load_sample("d")
     store = Works()
-    found = store.find(store.keep(mine))
+    found = store.find(store.keep(Work(mine))).building
     assert found.digest == mine.digest
     assert found.title == mine.title
     assert store.n_bytes < size_of([mine]) / 10

@@ -45,7 +45,13 @@ MODULES = {
     "occsim.io.scans": ("metric_scans", "MetricScans", "dump", "load"),
     "occsim.io.metric": ("MetricFrame", "poses_to_image", "poses_to_metric"),
     "occsim.io.trajectories": ("read_trajectory_table", "TrajectoryTable"),
-    "occsim.io.project": ("Project", "dump_project", "load_project", "ProjectError"),
+    "occsim.io.project": (
+        "Project",
+        "RobotData",
+        "dump_project",
+        "load_project",
+        "ProjectError",
+    ),
     "occsim.io.prior_map": ("prior_png", "prior_npy", "prior_csv", "prior_json"),
     "occsim.study": (
         "find_drawings",

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from occsim.building import Building
 from pages._ui import compute
@@ -35,6 +36,11 @@ class LogFile:
     """A TUM file that places timed scans."""
 
     @property
+    def n_bytes(self) -> int:
+        """Size of what was uploaded."""
+        return len(self.data) + len(self.trajectory or b"")
+
+    @cached_property
     def digest(self) -> str:
         """Identifies the content."""
         parts = self.data, self.trajectory or b""
@@ -50,6 +56,11 @@ def options(settings: Settings) -> LogOptions:
         behind_hit=settings.log_behind_hit,
         clear_no_hit=settings.log_clear_no_hit,
     )
+
+
+def map_id(log: LogFile, settings: Settings) -> str:
+    """What tells a log's map from others."""
+    return f"{log.digest} {options(settings)}"
 
 
 def played(log: LogFile, settings: Settings) -> PlayedLog:

@@ -258,13 +258,13 @@ def truth_notice() -> None:
 
 
 def _ending() -> None:
-    own = state.OWN in state.choices()
+    own = state.OWN in state.choices() or not state.robot().is_empty
     kept = not own or state.work_key() is not None
     note = "It opens this page with this drawing and these settings."
     if own:
         note += (
-            " Your own building opens from this server only and for a day; the project "
-            "file lasts longer (Your building, 7 Keep)."
+            " Your own building or log opens from this server only and for a day; the "
+            "project file lasts longer (Your building, 7 Keep)."
         )
     # The link to a room that one has opened holds its key.
     may_be_shared = "key" not in state.query()

@@ -33,6 +33,12 @@ from occsim.io.project.archive import (
     check_images,
     unpacked_project,
 )
+from occsim.io.project.robot import (
+    RobotData,
+    read_robot,
+    robot_document,
+    robot_files,
+)
 from occsim.io.project.values import (
     FORMAT,
     VERSION,
@@ -63,6 +69,8 @@ class Project:
         Drawing, walls, ground truth, trajectory, scale.
     settings : mapping of str to str
         Settings of the application, as text.
+    robot : RobotData
+        A robot's data; none by default.
 
     Examples
     --------
@@ -74,6 +82,7 @@ class Project:
 
     building: Building
     settings: Mapping[str, str] = field(default_factory=dict)
+    robot: RobotData = RobotData()
 
 
 def dump_project(project: Project) -> bytes:
@@ -89,6 +98,11 @@ def dump_project(project: Project) -> bytes:
     bytes
         A zip archive; the same project gives the same bytes.
 
+    Raises
+    ------
+    ProjectError
+        Where the robot's log is too large to be read back.
+
     Examples
     --------
     >>> from occsim import load_sample
@@ -98,6 +112,7 @@ def dump_project(project: Project) -> bytes:
     """
     building = project.building
     document = _description(building, project.settings)
+    document["robot"] = robot_document(project.robot)
     files = {
         JSON_NAME: json.dumps(document, indent=1).encode("ascii"),
         DRAWING: drawing_png(building.drawing),
@@ -109,6 +124,7 @@ def dump_project(project: Project) -> bytes:
     for name, mask in ((UNKNOWN, building.unknown), (TRUTH, building.truth)):
         if mask is not None:
             files[name] = mask_png(mask)
+    files |= robot_files(project.robot)
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
@@ -205,7 +221,8 @@ def _project(files: Mapping[str, bytes]) -> Project:
         tour=trajectory if values.is_planned else None,
         **values.parts,
     )
-    return Project(building=building, settings=values.settings)
+    robot = read_robot(values.robot, files)
+    return Project(building=building, settings=values.settings, robot=robot)
 
 
 def _image(files: Mapping[str, bytes], name: str, title: str) -> Drawing:

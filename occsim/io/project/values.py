@@ -1,7 +1,6 @@
 """The values in the JSON of a project, each checked for its type and its bounds."""
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from enum import Enum
@@ -9,6 +8,7 @@ from typing import Any
 
 from occsim.building import Sketch
 from occsim.io.project.archive import JSON_NAME, ProjectError, shown
+from occsim.io.project.checks import MAX_TEXT, is_number, is_text
 from occsim.sensor import BehindHit, Sensor
 from occsim.walls import WallParams
 
@@ -18,9 +18,6 @@ VERSION = 2
 
 VERSIONS = (1, VERSION)
 """Versions that can be read."""
-
-MAX_TEXT = 2000
-"""Longest title or setting, characters."""
 
 MAX_SETTINGS = 200
 MAX_SKETCH = 5000
@@ -33,7 +30,7 @@ class ProjectValues:
     """The content of the JSON, checked.
 
     ``parts`` are arguments of `occsim.Building`; ``is_planned`` says whether the
-    trajectory is the building's tour.
+    trajectory is the building's tour. ``robot`` is not checked yet.
     """
 
     version: int
@@ -41,6 +38,7 @@ class ProjectValues:
     is_planned: bool
     parts: dict[str, Any]
     settings: Mapping[str, str]
+    robot: object
 
 
 def read_values(content: bytes) -> ProjectValues:
@@ -69,6 +67,7 @@ def read_values(content: bytes) -> ProjectValues:
             "about": _text(document, "about"),
         },
         settings=_settings(document.get("settings")),
+        robot=document.get("robot"),
     )
 
 
@@ -99,17 +98,9 @@ def _check_version(document: Mapping[str, Any]) -> None:
         )
 
 
-def _is_text(value: object) -> bool:
-    """Whether a value is text, can be encoded, and is not too long."""
-    if not isinstance(value, str) or len(value) > MAX_TEXT:
-        return False
-    # JSON may hold a lone surrogate.
-    return not any("\ud800" <= character <= "\udfff" for character in value)
-
-
 def _text(document: Mapping[str, Any], key: str) -> str:
     value = document.get(key, "")
-    if not _is_text(value):
+    if not is_text(value):
         raise ProjectError(
             f"{key} must be text of at most {MAX_TEXT} whole characters; "
             f"got {shown(value)}"
@@ -121,16 +112,9 @@ def _length(document: Mapping[str, Any], key: str, highest: float) -> float | No
     value = document.get(key)
     if value is None:
         return None
-    if not _is_number(value) or not 0 < value <= highest:
+    if not is_number(value) or not 0 < value <= highest:
         raise ProjectError(f"{key} must lie in (0, {highest:g}]; got {shown(value)}")
     return float(value)
-
-
-def _is_number(value: object) -> bool:
-    # bool is an int to Python; a huge int has no float.
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return abs(value) < 1e15 and math.isfinite(value)
 
 
 def _sketch(value: object) -> Sketch:
@@ -150,7 +134,7 @@ def _is_corner(value: object) -> bool:
     return (
         isinstance(value, list)
         and len(value) == 3
-        and all(_is_number(v) and abs(v) <= MAX_LENGTH_PX for v in value[:2])
+        and all(is_number(v) and abs(v) <= MAX_LENGTH_PX for v in value[:2])
         and isinstance(value[2], bool)
     )
 
@@ -189,7 +173,7 @@ def _parameters(value: object, what: str, kind: type[Any]) -> dict[str, Any]:
         elif wanted is bool:
             is_right, needed = isinstance(got, bool), "true or false"
         else:
-            is_right, needed = _is_number(got), "a number"
+            is_right, needed = is_number(got), "a number"
         if not is_right:
             raise ProjectError(f"{key} in {what} must be {needed}; got {shown(got)}")
     return value
@@ -200,7 +184,7 @@ def _settings(value: object) -> Mapping[str, str]:
     if (
         not isinstance(value, dict)
         or len(value) > MAX_SETTINGS
-        or not all(_is_text(key) and _is_text(text) for key, text in value.items())
+        or not all(is_text(key) and is_text(text) for key, text in value.items())
     ):
         raise ProjectError(
             f"settings must be an object of at most {MAX_SETTINGS} texts"

@@ -76,6 +76,11 @@ class Walls:
         return hashlib.sha256(self.packed).hexdigest()
 
 
+def about(map_id: str, building: Building) -> str:
+    """What tells registrations of a drawing on a map from others."""
+    return f"{map_id} {building.drawing.digest}"
+
+
 def by_points(drawing: Points, on_map: Points) -> Registration:
     """The registration that two pairs of points give."""
     return register_by_points(_places(drawing), _places(on_map))

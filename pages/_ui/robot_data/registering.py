@@ -7,7 +7,7 @@ from functools import partial
 
 import streamlit as st
 
-from occsim import Corrections, Registration
+from occsim import Registration
 from pages._ui import controls, limits, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel, PriorDrawing
 from pages._ui.columns import DRAWN_COLUMNS, Column
@@ -18,10 +18,12 @@ from pages._ui.robot_data import registered
 from pages._ui.robot_data.played import PlayedLog
 from pages._ui.robot_data.registered import Registrations, Walls
 from pages._ui.robot_data.scans import given_log, mapped
+from pages._ui.robot_data.work import Traced
 from pages._ui.your_building import drawn
 from pages._ui.your_building.drawn import Paper
 
-REGISTRATIONS, TRACING, STEP = "registrations", "tracing", "registration_step"
+OPENED, STEP = "registration_opened", "registration_step"
+"""Where the registration of a simulated log opens."""
 STEPS = ("Register a drawing", "Or trace walls", "Map with it")
 DRAWING_KEY, MAP_KEY, TRACE_KEY = "board_drawing", "board_map", "board_trace"
 WHICH = "registration_which"
@@ -49,43 +51,49 @@ def show() -> None:
             **state.bind_view(STEP, STEPS[0]),
         )
         if step == STEPS[0]:
-            _buttons(log, made)
+            _refining(log, made)
+        if step != STEPS[-1]:
+            _history()
+        if step == STEPS[0]:
+            _choose_drawing(log)
     if state.message():
         shell.say_error(state.message())
     (_register, _trace, _map)[STEPS.index(step)](log, made)
 
 
-def _buttons(log: LogFile, made: PlayedLog) -> None:
+def _refining(log: LogFile, made: PlayedLog) -> None:
     so_far = _registrations(log, made)
     st.button(
         "Refine by what the robot saw",
         on_click=state.edit,
-        args=(partial(_refine, made),),
+        args=(partial(_refine, so_far, made),),
         disabled=so_far.now is None,
         type="primary",
     )
-    st.button(
-        "Undo", on_click=_undo, disabled=len(so_far.steps) < 2, key="undo_registration"
-    )
-    _choose_drawing(log)
+
+
+def _history() -> None:
+    with st.container(horizontal=True, width="content"):
+        st.button("Undo", on_click=state.undo, disabled=not state.can_undo())
+        st.button("Redo", on_click=state.redo, disabled=not state.can_redo())
 
 
 def _key(log: LogFile) -> str:
     """What tells a map from others."""
-    return f"{log.digest} {logs.options(state.settings())}"
+    return logs.map_id(log, state.settings())
 
 
 def _registrations(log: LogFile, made: PlayedLog) -> Registrations:
     building = state.building()
-    about = f"{_key(log)} {building.drawing.digest}"
-    kept: Registrations | None = state.view(REGISTRATIONS, None)
-    if kept is not None and kept.about == about:
-        return kept
-    kept = Registrations(about)
+    about = registered.about(_key(log), building)
+    for kept in (state.robot().registrations, state.view(OPENED, None)):
+        if kept is not None and kept.about == about:
+            return kept  # type: ignore[no-any-return]
+    opened = Registrations(about)
     if log.is_simulated:
-        kept = registered.opening(about, building, made)
-    state.set_view(REGISTRATIONS, kept)
-    return kept
+        opened = registered.opening(about, building, made)
+    state.set_view(OPENED, opened)
+    return opened
 
 
 def _register(log: LogFile, made: PlayedLog) -> None:
@@ -117,17 +125,22 @@ def _board(
 ) -> None:
     """Show a board with two points."""
 
+    def latest() -> Registrations:
+        # Both boards may have been drawn upon in one run.
+        kept = state.robot().registrations
+        return kept if kept is not None and kept.about == so_far.about else so_far
+
     def source() -> tuple[object, ...]:
-        # As it was drawn: a new registration is shown by a new document.
-        return (so_far.about, so_far.now if key == MAP_KEY else None)
+        # The registration as it was drawn: a new one is shown by a new document.
+        shown = so_far.now if key == MAP_KEY else None
+        return (so_far.about, getattr(latest(), field), shown)
 
     def take(new: BoardDocument) -> None:
-        now: Registrations = state.view(REGISTRATIONS, so_far)
-        now = replace(now, **{field: new.points})
+        now = replace(latest(), **{field: new.points})
         if len(now.drawing_points) == len(now.map_points) == 2:
             found = registered.by_points(now.drawing_points, now.map_points)
             now = replace(now, steps=(*now.steps, found)[-MAX_STEPS:])
-        state.set_view(REGISTRATIONS, now)
+        state.edit_robot(registrations=now)
 
     drawn.board(
         key,
@@ -192,19 +205,12 @@ def where(registration: Registration, made: PlayedLog) -> str:
     )
 
 
-def _refine(made: PlayedLog) -> None:
-    so_far: Registrations | None = state.view(REGISTRATIONS, None)
-    if so_far is None or so_far.now is None:
+def _refine(so_far: Registrations, made: PlayedLog) -> None:
+    if so_far.now is None:
         return
     found = registered.refined(state.building().wall_mask, so_far.now, made)
     steps = (*so_far.steps, found)[-MAX_STEPS:]
-    state.set_view(REGISTRATIONS, replace(so_far, steps=steps))
-
-
-def _undo() -> None:
-    so_far: Registrations | None = state.view(REGISTRATIONS, None)
-    if so_far is not None and len(so_far.steps) > 1:
-        state.set_view(REGISTRATIONS, replace(so_far, steps=so_far.steps[:-1]))
+    state.edit_robot(registrations=replace(so_far, steps=steps))
 
 
 def _choose_drawing(log: LogFile) -> None:
@@ -219,19 +225,14 @@ def _choose_drawing(log: LogFile) -> None:
 def _trace(log: LogFile, made: PlayedLog) -> None:
     """Draw walls on the map itself."""
     grid, key = made.grid, _key(log)
-    kept: tuple[str, Corrections] | None = state.view(TRACING, None)
-    if kept is None or kept[0] != key:
-        kept = key, Corrections.none((grid.height_px, grid.width_px))
-        state.set_view(TRACING, kept)
-    about, strokes = kept
 
     def make() -> BoardDocument:
-        return BoardDocument(
-            height_px=grid.height_px, width_px=grid.width_px, overlay=strokes
-        )
+        size = {"height_px": grid.height_px, "width_px": grid.width_px}
+        traced = _traced(log, made)
+        return BoardDocument(**size, overlay=traced and traced.strokes)
 
     def take(new: BoardDocument) -> None:
-        state.set_view(TRACING, (about, new.corrections))
+        state.edit_robot(traced=Traced(key, new.corrections))
 
     st.markdown(
         "No drawing? **Trace** the walls that you believe in over the map: they become "
@@ -240,20 +241,28 @@ def _trace(log: LogFile, made: PlayedLog) -> None:
     drawn.board(
         TRACE_KEY,
         BoardMode.WALLS,
-        lambda: (about,),
+        lambda: (made, _traced(log, made)),
         make,
         take,
         paper=_map_paper(log, made, drawn.HEIGHT_PX),
     )
 
 
+def _traced(log: LogFile, made: PlayedLog) -> Traced | None:
+    """The walls traced on this map; None where there are none."""
+    traced = state.robot().traced
+    if traced is None or traced.about != _key(log):
+        return None
+    # A project file may say anything.
+    size = made.grid.height_px, made.grid.width_px
+    return traced if traced.strokes.shape == size else None
+
+
 def _walls(log: LogFile, made: PlayedLog) -> Walls | None:
     """The walls of the prior: registered, or traced."""
     so_far = _registrations(log, made)
-    tracing: tuple[str, Corrections] | None = state.view(TRACING, None)
-    has_traced = (
-        tracing is not None and tracing[0] == _key(log) and not tracing[1].is_empty
-    )
+    traced = _traced(log, made)
+    has_traced = traced is not None and not traced.strokes.is_empty
     options = [REGISTERED] * (so_far.now is not None) + [TRACED] * has_traced
     if not options:
         return None
@@ -266,9 +275,9 @@ def _walls(log: LogFile, made: PlayedLog) -> Walls | None:
             label_visibility="collapsed",
             **state.bind_view(WHICH, options[0]),
         )
-    if which == TRACED and tracing is not None:
+    if which == TRACED and traced is not None:
         nothing = registered.traced(b"", made)
-        return Walls(tracing[1].apply(nothing.mask))
+        return Walls(traced.strokes.apply(nothing.mask))
     return registered.walls_on_map(state.building().wall_mask, so_far.now, made)
 
 

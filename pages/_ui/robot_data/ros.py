@@ -14,10 +14,9 @@ from occsim.io.metric import MetricFrame
 from occsim.io.ros_map import RosMap, load_files, map_drawing
 from pages._ui import compute, shell, state, uploads, words
 from pages._ui.robot_data import files
+from pages._ui.robot_data.work import Placed
 
 KEPT, KEEP_UNKNOWN = "ros_map", "ros_keep_unknown"
-PLACED = "ros_placed"
-"""Which drawing was made of a map, and where that map lies."""
 UNKNOWN_BELOW = 0.196
 """The level that map servers write for unknown is 205: 0.196 of black."""
 ABOUT = "The .yaml and the image (.pgm or .png) together, or both in one .zip."
@@ -158,7 +157,7 @@ def _uses(name: str, ros_map: RosMap) -> None:
 def _as_drawing(name: str, ros_map: RosMap) -> None:
     building = compute.building_of_map(ros_map, name, uploads.working_px())
     state.open_own(building)
-    state.set_view(PLACED, (building.drawing.digest, ros_map.frame))
+    state.edit_robot(placed=Placed(building.drawing.digest, ros_map.frame))
 
 
 def _as_truth(name: str, ros_map: RosMap) -> None:
@@ -180,10 +179,10 @@ def _frame(building: Building, metres_per_px: float) -> MetricFrame:
     """Where the maps of a building lie: where its map of ROS lay, if it is of one."""
     height_px, _ = building.drawing.shape
     frame = MetricFrame(height_px=height_px, metres_per_px=metres_per_px)
-    digest, lay = state.view(PLACED, ("", frame))
-    if digest != building.drawing.digest:
+    placed = state.robot().placed
+    if placed is None or placed.digest != building.drawing.digest:
         return frame
-    return replace(lay, height_px=height_px, metres_per_px=metres_per_px)
+    return replace(placed.frame, height_px=height_px, metres_per_px=metres_per_px)
 
 
 def _out() -> None:

@@ -29,7 +29,7 @@ SEE = {
     "it, of those that reach it. A beam fills its sector in A; in B it has no width.",
 }
 NO_TRUTH = "There is no ground truth, so no score."
-LOG, POSES, TAKEN = "robot_log", "robot_log_poses", "robot_logs_taken"
+POSES, TAKEN = "robot_log_poses", "robot_logs_taken"
 ABOUT = (
     "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log)"
     + (", a bag of ROS 1 or 2 (.bag, .mcap, .db3)" if bags.is_readable() else "")
@@ -67,16 +67,16 @@ def show() -> None:
 
 def given_log() -> LogFile:
     """The log that was uploaded; else one simulated in the chosen building."""
-    uploaded = state.view(LOG, None)
+    uploaded = state.robot().log
     return logs.simulated(state.building()) if uploaded is None else uploaded
 
 
 def _controls() -> None:
     with st.container(horizontal=True, vertical_alignment="bottom", key="map_controls"):
-        if state.view(LOG, None) is None:
+        if state.robot().log is None:
             controls.drawing_choice()
         else:
-            st.button("Back to the simulated log", on_click=_forget)
+            st.button("Back to the simulated log", on_click=state.edit, args=(_forget,))
         for name in ("log_cell_m", "usable_range_m"):
             controls.slider(name, width=controls.NARROW_PX)
         if controls.shown("log_maps"):
@@ -127,7 +127,7 @@ def _use_log(file: Any) -> None:
             raise RobotFileError("timed scans need a TUM trajectory: upload it first")
     log = LogFile(file.name, data, trajectory=trajectory)
     logs.played(log, state.settings())  # refused here, or not at all
-    state.set_view(LOG, log)
+    state.edit_robot(log=log)
 
 
 def _keep_trajectory(file: Any) -> None:
@@ -135,7 +135,7 @@ def _keep_trajectory(file: Any) -> None:
 
 
 def _forget() -> None:
-    state.set_view(LOG, None)
+    state.edit_robot(log=None)
     state.set_view(TAKEN, state.view(TAKEN, 0) + 1)
 
 
@@ -156,11 +156,16 @@ def facts(log: LogFile, made: PlayedLog) -> str:
     if log.is_simulated:
         name = "Simulated on the tour of this building, with the errors of a small "
         name += "laser scanner (Hokuyo URG-04LX): "
+    kept = (
+        ""
+        if not state.robot().is_log_too_large
+        else (" The log is too large to be kept: after a reload, upload it again.")
+    )
     said = (
         f"{name}{made.n_scans:,} scan{'s' * (made.n_scans != 1)} of "
         f"{scan_log.n_beams} beam{'s' * (scan_log.n_beams != 1)}; map "
         f"{grid.width_px * scale:.1f} m × {grid.height_px * scale:.1f} m in cells of "
-        f"{100 * scale:.0f} cm."
+        f"{100 * scale:.0f} cm.{kept}"
     )
     return " ".join([said, *_left_out(made)])
 

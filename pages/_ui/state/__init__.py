@@ -102,6 +102,7 @@ from pages._ui.state.replay import (
     player_document,
     take_from_player,
 )
+from pages._ui.state.robots import edit_robot, robot
 from pages._ui.state.widgets import (
     bind,
     bind_chart,
@@ -166,6 +167,7 @@ __all__ = [
     "drawing_title",
     "edit",
     "edit_building",
+    "edit_robot",
     "finish",
     "fit_columns",
     "follow_link",
@@ -198,6 +200,7 @@ __all__ = [
     "redo",
     "refusal",
     "reset_all",
+    "robot",
     "set_own",
     "set_range_to_door",
     "set_view",

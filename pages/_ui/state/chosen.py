@@ -14,6 +14,7 @@ from pages._ui.choices import SECTIONS, PriorDrawing
 from pages._ui.classroom.kept import CLASSES, typed
 from pages._ui.classroom.prepared import Prepared
 from pages._ui.course import lesson_in
+from pages._ui.robot_data.work import EMPTY
 from pages._ui.settings import Settings, decode, encode, with_changes
 from pages._ui.state.classes import (
     class_in_link,
@@ -35,7 +36,8 @@ from pages._ui.state.replay import (
     place_in_replay,
     restart_home,
 )
-from pages._ui.state.works import WORKS
+from pages._ui.state.robots import robot
+from pages._ui.state.works import WORKS, Work
 
 YOUR_BUILDING = "pages/2_Your_building.py"
 SECTION_NUMBERS = [str(number) for number in range(1, len(SECTIONS) + 1)]
@@ -48,8 +50,8 @@ EXERCISE_ID = re.compile(r"[a-z0-9_]{1,40}")
 BARE = {"exercise", "projector"}
 """What a link to an exercise may say and still open it from its beginning."""
 GONE = (
-    "The building of this link is no longer on this server: the server was "
-    "restarted, or the building has expired. Open your project file on the page "
+    "The building or log of this link is no longer on this server: the server was "
+    "restarted, or it has expired. Open your project file on the page "
     "Your building to continue; the settings of the link are used."
 )
 
@@ -86,14 +88,19 @@ def _open_link(path: str, query: Mapping[str, str]) -> None:
     state.exercise = asked if EXERCISE_ID.fullmatch(asked) else None
     query = {**_exercise_texts(query), **given}
     state.projector = query.get("projector") == "1"
-    state.own, state.work = None, None
+    state.own, state.work, state.robot = None, None, EMPTY
     state.path = path
     state.message, state.generation = "", 0
     state.past = state.future = ()
     if "work" in query:
-        state.own = WORKS.find(query["work"])
-        state.work = query["work"], state.own
-        notices += [] if state.own else [GONE]
+        found = WORKS.find(query["work"])
+        notices += [] if found else [GONE]
+        kept = found or Work()
+        state.own, state.robot, state.work = (
+            kept.building,
+            kept.robot,
+            (query["work"], kept),
+        )
     wrong = []
     first = OPENING_OF.get(path, OPENING)
     asked = query.get("drawing", first)
@@ -228,19 +235,20 @@ def _section() -> dict[str, str]:
 
 
 def work_key() -> str | None:
-    """Return the key under which the building of one's own is kept; None if it is not.
+    """Return the key under which one's own building and log are kept; None if not.
 
     A session that opened another's link goes on under a key of its own once it changes
-    the building.
+    them.
     """
     state = st.session_state
-    if state.own is None:
+    work = Work(state.own, robot())
+    if work.is_empty:
         return None
-    key, kept = state.work or (None, None)
-    if kept is not state.own:
+    key, kept = state.work or (None, Work())
+    if not work.is_as(kept):
         mine = key if key == state.get("my_key") else None
-        state.my_key = WORKS.keep(state.own, mine)
-        state.work = state.my_key, state.own
+        state.my_key = WORKS.keep(work, mine)
+        state.work = state.my_key, work
     return state.work[0]
 
 

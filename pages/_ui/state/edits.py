@@ -1,4 +1,4 @@
-"""Edits of a student's own building, with undo and redo; messages."""
+"""Edits of a student's own building and log, with undo and redo; messages."""
 
 import logging
 from collections.abc import Callable, Mapping
@@ -9,6 +9,7 @@ import streamlit as st
 
 from occsim import Corrections, OccsimError
 from occsim.building import Building
+from pages._ui.robot_data.work import EMPTY, RobotWork
 from pages._ui.settings import Settings, decode
 from pages._ui.shared import size_of
 from pages._ui.state.chosen import (
@@ -23,6 +24,7 @@ from pages._ui.state.chosen import (
 from pages._ui.state.held import keep_settings, limits
 from pages._ui.state.packed import Packed
 from pages._ui.state.replay import forget_player
+from pages._ui.state.robots import robot
 
 LOG = logging.getLogger(__name__)
 MAX_PAST = 50
@@ -42,6 +44,7 @@ class Snapshot:
     choice: str
     own: Building | Packed | None
     settings: Settings
+    robot: RobotWork
 
     def packed(self) -> "Snapshot":
         """The same with the building in compressed form."""
@@ -53,6 +56,7 @@ class Snapshot:
         return (
             self.choice == other.choice
             and self.settings == other.settings
+            and self.robot is other.robot
             and _are_same(self.own, other.own)
         )
 
@@ -83,7 +87,7 @@ def _snapshot() -> Snapshot:
     state = st.session_state
     # A copy holds the parts without cached results.
     own = None if state.own is None else replace(state.own)
-    return Snapshot(state.choice, own, settings())
+    return Snapshot(state.choice, own, settings(), robot())
 
 
 def set_own(own: Building) -> None:
@@ -117,9 +121,12 @@ def set_range_to_door() -> None:
     change(range_px=defaults(OWN).range_px)
 
 
-def open_project(own: Building, texts: Mapping[str, str]) -> None:
-    """Take over the building and the settings of a project file."""
+def open_project(
+    own: Building, texts: Mapping[str, str], made: RobotWork = EMPTY
+) -> None:
+    """Take over the building, the settings and the robot's data of a project file."""
     open_own(own)
+    st.session_state.robot = made
     found, _ = decode(texts)
     keep_settings(found)
     renew_widgets()
@@ -129,15 +136,15 @@ def attempt(action: Callable[[], None]) -> None:
     """Run an action on a student's input; if it fails, nothing changes."""
     state = st.session_state
     state.message = ""
-    before = state.choice, state.own, state.settings
+    before = state.choice, state.own, state.settings, robot()
     try:
         action()
     except OccsimError as error:
-        state.choice, state.own, state.settings = before
+        state.choice, state.own, state.settings, state.robot = before
         state.message = str(error)
     except Exception:
         LOG.exception("an action failed")
-        state.choice, state.own, state.settings = before
+        state.choice, state.own, state.settings, state.robot = before
         state.message = UNEXPECTED
 
 
@@ -147,7 +154,7 @@ def message() -> str:
 
 
 def edit(action: Callable[[], None], tag: str = "") -> None:
-    """Attempt an edit of the building that can be undone.
+    """Attempt an edit of the building, or of a robot's data, that can be undone.
 
     Consecutive edits with the same `tag`, such as the strokes on one board, count as
     one if the second began where the first ended and nothing was undone in between.
@@ -167,7 +174,7 @@ def finish() -> None:
     if state.get("unfinished") is None:
         return
     before, action, tag = state.unfinished
-    state.choice, state.own = before.choice, before.own
+    state.choice, state.own, state.robot = before.choice, before.own, before.robot
     edit(action, tag)
 
 
@@ -247,6 +254,7 @@ def _restore(left: Snapshot, entered: Snapshot) -> None:
     own = entered.own
     state.choice = limits().drawing or entered.choice
     state.own = own.opened() if isinstance(own, Packed) else own
+    state.robot = entered.robot
     names = [one.name for one in fields(Settings)]
     changes = {
         name: getattr(entered.settings, name)

@@ -5,8 +5,9 @@ from typing import Any
 
 import streamlit as st
 
-from occsim.io.project import Project, dump_project, load_project
+from occsim.io.project import MAX_LOG_BYTES, Project, dump_project, load_project
 from pages._ui import state
+from pages._ui.robot_data.work import of_project, to_project
 from pages._ui.settings import encode
 from pages._ui.uploads import MAX_UPLOAD_MB
 
@@ -19,11 +20,19 @@ def show() -> None:
     with left:
         st.markdown(
             "**Keep.** One file with the drawing, the masks and their corrections, the "
-            "ground truth, the trajectory, the scale and all settings. What is here "
-            "lasts for a day on this server, if it is not restarted; the file lasts "
-            "longer."
+            "ground truth, the trajectory, the scale and all settings; also a robot's "
+            f"log, up to {MAX_LOG_BYTES / 1e6:.0f} MB, and the drawing's place on its "
+            "map. What is here lasts for a day on this server, if it is not restarted; "
+            "the file lasts longer."
         )
-        project = Project(building=state.building(), settings=encode(state.settings()))
+        building, settings = state.building(), state.settings()
+        robot = to_project(state.robot(), building, settings)
+        project = Project(building=building, settings=encode(settings), robot=robot)
+        if state.robot().is_log_too_large:
+            st.caption(
+                "The robot's log is too large for the file: keep it beside, and upload "
+                "it again."
+            )
         st.download_button(
             "Download the project",
             partial(dump_project, project),
@@ -54,4 +63,5 @@ def _open() -> None:
 
 def _take(file: Any) -> None:
     project = load_project(file.getvalue(), name=file.name)
-    state.open_project(project.building, project.settings)
+    made = of_project(project.robot, project.building)
+    state.open_project(project.building, project.settings, made)
