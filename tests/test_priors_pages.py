@@ -41,9 +41,11 @@ from pages._ui.choices import (
 )
 from pages._ui.priors import (
     front_figures,
+    front_marks,
     fronts,
     guiding,
     maps,
+    marks,
     reliability,
     search_figures,
     solving,
@@ -619,7 +621,73 @@ def test_a_mark_that_does_not_set_the_axes_stands_at_the_border_with_its_scores(
         figure.layout.xaxis.range[0],
         figure.layout.yaxis.range[0],
     )
-    assert trace.text[0] == "recall 3 %, precision 2 %"
+    assert trace.text[0].strip("\u00a0") == "recall 3 %, precision 2 %"
+
+
+ENDS = [(80.0, 100.0), (90.0, 100.0)]
+"""Axes of recall and precision in a chart."""
+
+
+def beyond(name, precision, recall):
+    return front_marks.Mark(name, precision, recall, "diamond", sets_axes=False)
+
+
+def labelled(*shown):
+    """The names of the marks that have a label, and what each says when pointed at."""
+    traces = front_marks.mark_traces(list(shown), FrontAxes.SCORES, ENDS)
+    labels = [one.name for one in traces if one.text[0]]
+    assert labels == [one.name for one in traces if "text" in one.mode]
+    return labels, {one.name: one.hovertemplate for one in traces}
+
+
+def test_labels_at_the_border_of_a_chart_do_not_overlap():
+    """By hand, in 240 x 280 px: a label is 14 px high, of 10 points 280 px high."""
+    low = beyond("low", 0.95, 0.20)
+    near = beyond("near", 0.954, 0.30)  # 11 px higher
+    high = beyond("high", 0.956, 0.40)  # 17 px higher
+    assert labelled(low, near, high)[0] == ["low", "high"]
+    assert labelled(near, low, high)[0] == ["near"]
+    # Inside the axes a mark has no label and takes no room.
+    inside = beyond("inside", 0.95, 0.90)
+    assert labelled(inside, low)[0] == ["low"]
+
+
+def test_marks_that_cover_each_other_at_the_border_say_each_its_scores():
+    one, other = beyond("one", 0.10, 0.20), beyond("other", 0.11, 0.30)
+    apart = beyond("apart", 0.95, 0.20)
+    labels, said = labelled(one, other, apart)
+    assert labels == ["one", "apart"]
+    for words in (said["one"], said["other"]):
+        assert "precision 10.0 %, recall 20.0 %" in words
+        assert "precision 11.0 %, recall 30.0 %" in words
+    assert "recall 30.0 %" not in said["apart"]
+
+
+@pytest.mark.parametrize("axes", FrontAxes)
+def test_no_two_labels_of_any_drawings_overlap(axes):
+    """All five drawings in one chart, under the rule that scores next to nothing."""
+    settings = Settings(rule=UpdateRule.SUBTRACT_PRIOR, axes=axes)
+    runs = [compute.reference_run(name, settings) for name in "abcde"]
+    scored = [run.scores(one.prior) for run in runs for one in marks.marked(run)]
+    drawn = [
+        beyond(str(i), at.precision, at.recall)
+        for i, at in enumerate(scored)
+        if at.precision > 0.0 and at.recall > 0.0
+    ]
+    ends = ENDS
+    if axes is FrontAxes.INVERSE:
+        ends = [(1.0, 1.25), (1.0, 1.1)]
+    traces = front_marks.mark_traces(drawn, axes, ends)
+    boxes = [
+        (front_marks.placed(mark, axes, ends).label_px(), trace.y[0])
+        for mark, trace in zip(drawn, traces, strict=True)
+        if trace.text[0]
+    ]
+    assert len(boxes) >= 2
+    points = (ends[1][1] - ends[1][0]) * 14 / 280
+    for i, ((left, right), y) in enumerate(boxes):
+        for (start, end), at in boxes[:i]:
+            assert right <= start or end <= left or abs(y - at) >= points
 
 
 def test_before_a_search_only_the_front_is_drawn(run_b):

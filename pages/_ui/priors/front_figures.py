@@ -9,6 +9,7 @@ from plotly.colors import sample_colorscale
 from occsim.priors import ParetoFront
 from pages._ui import palette, words
 from pages._ui.choices import FrontAxes
+from pages._ui.priors.front_marks import Mark, mark_traces, place
 from pages._ui.priors.fronts import pairs_of, scores_at
 from pages._ui.priors.marks import MarkedPrior
 from pages._ui.priors.surface_figures import (
@@ -32,23 +33,6 @@ STEPS = "vh"
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """One map of its own in a chart of fronts: a name, its scores, a symbol.
-
-    A click chooses its ``pair``, if it has one. A mark that does not set the axes
-    stands at the border of the chart if it lies beyond.
-    """
-
-    name: str
-    precision: float
-    recall: float
-    symbol: str
-    color: str = palette.HALO
-    pair: Pair | None = None
-    sets_axes: bool = True
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawn:
     """A front as it is drawn, and the marked maps that belong to it.
@@ -65,13 +49,6 @@ class Drawn:
     marks: tuple[Mark, ...] = ()
 
 
-def place(axes: FrontAxes, precision: Any, recall: Any) -> tuple[Any, Any]:
-    """Where scores lie in a chart: x and y; numbers or arrays."""
-    if axes is FrontAxes.INVERSE:
-        return 1.0 / recall, 1.0 / precision
-    return 100.0 * recall, 100.0 * precision
-
-
 def fronts_figure(
     drawn: list[Drawn], axes: FrontAxes, min_recall: float, title: str, revision: str
 ) -> go.Figure:
@@ -85,7 +62,7 @@ def fronts_figure(
     # it must not squeeze the fronts.
     points += [(m.precision, m.recall) for m in shown if m.sets_axes]
     ends = frame_front(figure, axes, points, title, revision)
-    figure.add_traces([mark_trace(mark, axes, ends) for mark in shown])
+    figure.add_traces(mark_traces(shown, axes, ends))
     # The points last, so that they lie on top and can be clicked.
     for one in drawn:
         if one.size:
@@ -103,10 +80,11 @@ def front_figure(
 
 
 def study_figure(
-    fronts: dict[str, ParetoFront], axes: FrontAxes, min_recall: float
+    fronts: dict[str, ParetoFront], cell_px: int, axes: FrontAxes, min_recall: float
 ) -> go.Figure:
     """The fronts of several drawings, each in its colour and dashes."""
-    return fronts_figure(series(fronts), axes, min_recall, "Exact fronts", "study")
+    title = f"Exact fronts, cells of {cell_px} px"
+    return fronts_figure(series(fronts), axes, min_recall, title, "study")
 
 
 def series(fronts: dict[str, ParetoFront]) -> list[Drawn]:
@@ -179,44 +157,6 @@ def front_points(drawn: Drawn, axes: FrontAxes, min_recall: float) -> go.Scatter
 def _symbols(drawn: Drawn, min_recall: float) -> list[str]:
     inside = [recall > min_recall for recall in drawn.front.recall.tolist()]
     return [drawn.symbol if flag else f"{drawn.symbol}-open" for flag in inside]
-
-
-def mark_trace(mark: Mark, axes: FrontAxes, ends: list[Pair]) -> go.Scatter:
-    """One marked map; beyond an axis it stands at the border, with its score."""
-    true = place(axes, mark.precision, mark.recall)
-    x, y = (min(max(at, low), high) for at, (low, high) in zip(true, ends, strict=True))
-    beyond = (x, y) != true
-    scores = {"recall": mark.recall, "precision": mark.precision}
-    label = ", ".join(
-        f"{name} {100 * score:.0f} %"
-        for (name, score), at, shown in zip(scores.items(), true, (x, y), strict=True)
-        if at != shown
-    )
-    is_ring = mark.symbol.endswith("-open")
-    line = {"color": mark.color if is_ring else palette.OUTLINE}
-    line["width"] = 3 if is_ring else 1
-    size = 17 if is_ring else 13
-    marker = {"symbol": mark.symbol, "size": size, "color": mark.color, "line": line}
-    about = f"{mark.name}<br>precision {100 * mark.precision:.1f} %, "
-    about += f"recall {100 * mark.recall:.1f} %<extra></extra>"
-    return go.Scatter(
-        x=[x],
-        y=[y],
-        customdata=None if mark.pair is None else [list(mark.pair)],
-        mode="markers+text" if beyond else "markers",
-        text=[label],
-        textposition="middle left" if x == ends[0][1] else "middle right",
-        textfont={"size": 11},
-        name=mark.name,
-        marker=marker,
-        selected={"marker": {"opacity": 1}},
-        unselected={"marker": {"opacity": 1}},
-        # A ring lies around its point and must not catch the pointer.
-        hoverinfo="skip" if is_ring else None,
-        hovertemplate=None if is_ring else words.chart(about),
-        showlegend=False,
-        cliponaxis=False,
-    )
 
 
 def threshold(figure: go.Figure, axes: FrontAxes, min_recall: float) -> None:

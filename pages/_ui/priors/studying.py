@@ -1,7 +1,6 @@
 """The parts of the page "Study"."""
 
 import json
-import math
 from dataclasses import replace
 
 import streamlit as st
@@ -110,8 +109,8 @@ def tables(cases: list[StudyCase]) -> None:
 
 def _shown(value: object) -> str:
     if isinstance(value, float):
-        return words.DASH if math.isnan(value) else f"{value:.2f}"
-    return words.ranges(str(value)) or words.DASH
+        return words.number(value, ".2f")
+    return words.ranges(str(value)).replace(" ", "\u00a0") or words.DASH
 
 
 def all_fronts(cases: list[StudyCase]) -> None:
@@ -121,8 +120,9 @@ def all_fronts(cases: list[StudyCase]) -> None:
     for column, cell_px in zip(columns, SOURCE_CELLS_PX, strict=True):
         fronts = {c.name: c.front for c in cases if c.cell_px == cell_px}
         with column:
-            st.markdown(f"**Exact fronts, cells of {cell_px} px**")
-            figure = front_figures.study_figure(fronts, chosen.axes, chosen.min_recall)
+            figure = front_figures.study_figure(
+                fronts, cell_px, chosen.axes, chosen.min_recall
+            )
             st.plotly_chart(figure, config=chart("study"), key=f"study_{cell_px}")
 
 
