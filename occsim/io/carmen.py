@@ -46,6 +46,13 @@ three of Hokuyo."""
 
 _BOM = b"\xef\xbb\xbf"
 _FIRST_WORD = re.compile(rb"(?m)^[ \t]*([A-Z][A-Z0-9_]+)[ \t]")
+_SCANS = {
+    kind: re.compile(rb"(?m)^[ \t]*" + kind + rb"[ \t]")
+    for kind in (b"FLASER", b"ROBOTLASER1")
+}
+
+_SHOWN_BYTES = 1_000_000
+"""So much of a log without scans is searched for the lines that it has instead."""
 
 
 class PoseSource(Enum):
@@ -212,9 +219,10 @@ def load(
 def _parse(data: bytes, name: str) -> tuple[list[_Line], FloatArray]:
     """Return the scans of one kind, and the poses of the odometry."""
     data = data.removeprefix(_BOM)
-    found = set(_FIRST_WORD.findall(data))
-    kind = b"FLASER" if b"FLASER" in found else b"ROBOTLASER1"
-    if kind not in found:
+    present = [word for word in _SCANS if word in data and _SCANS[word].search(data)]
+    kind = present[0] if present else None
+    if kind is None:
+        found = set(_FIRST_WORD.findall(data[:_SHOWN_BYTES]))
         raise RobotFileError(_without_scans(found, printable(name)))
     read = _flaser if kind == b"FLASER" else _robotlaser
     scans, odometry, n_ranges = list[_Line](), list[FloatArray](), 0

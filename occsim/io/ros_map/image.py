@@ -17,6 +17,11 @@ _PGM = re.compile(
     rb"(P[25])" + (_SPACE_OR_COMMENT + rb"(\d{1,9})") * 3 + rb"(?:#[^\r\n]*[\r\n]|\s)"
 )
 
+_HEADER_BYTES = 10_000
+"""Most that a header may take: each space and comment in it costs memory."""
+
+_MAX_COMMENTS = 10_000
+
 
 @dataclass(frozen=True, eq=False)
 class MapImage:
@@ -100,7 +105,7 @@ def transparent_png(levels: ByteArray, is_opaque: BoolArray) -> bytes:
 
 
 def _read_pgm(data: bytes, name: str) -> FloatArray:
-    header = _PGM.match(data)
+    header = _PGM.match(data[:_HEADER_BYTES])
     if header is None:
         raise RobotFileError(f"the header of {name} is damaged; PGM is needed")
     width, height, most = (int(header[k]) for k in (2, 3, 4))
@@ -130,6 +135,8 @@ def _binary_levels(
 
 
 def _plain_levels(body: bytes, count: int, most: int) -> FloatArray | None:
+    if body.count(b"#") > _MAX_COMMENTS:
+        return None
     body = re.sub(rb"#[^\r\n]*", b"", body)
     # No level and the gap behind it take more than twelve bytes in a sensible file.
     if len(body) > 12 * count + 1000 or body.translate(None, b"0123456789 \t\r\n\v\f"):
