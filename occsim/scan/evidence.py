@@ -29,8 +29,8 @@ from occsim.scan.sectors import (
 )
 from occsim.sensor import OWN_PIXEL_EPS_PX, Sensor
 
-CROSSINGS_AT_ONCE = 1 << 19
-"""Most rows of pixels that the outlines of a batch cross, save a single scan's:
+CROSSINGS_AT_ONCE = 1 << 18
+"""Most rows of pixels that each outline of a batch crosses, save a single scan's:
 bounds memory."""
 
 
