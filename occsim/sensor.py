@@ -133,7 +133,7 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
 
     Parameters
     ----------
-    n_empty, n_object : array_like of int, of one shape
+    n_empty, n_object : array_like of int, of shapes that can be broadcast
         Pixels of the cell in view nearer than the hit, and at it or beyond; at least
         one of the two is positive.
 
@@ -150,6 +150,8 @@ def inverse_sensor_model(n_empty: npt.ArrayLike, n_object: npt.ArrayLike) -> Flo
     array([ 2.197,  0.693, -2.197])
     """
     n_empty, n_object = np.asarray(n_empty), np.asarray(n_object)
+    if n_empty.shape != n_object.shape:
+        n_empty, n_object = np.broadcast_arrays(n_empty, n_object)
     # Eq. 4.22, first and second case: most cells are all empty or all object.
     any_empty = n_empty > 0
     log_odds = np.where(any_empty, LOG_ODDS_MAX, LOG_ODDS_MIN)

@@ -33,6 +33,12 @@ def test_log_odds_of_a_cell_by_its_pixels(n_empty, n_object, odds):
     )
 
 
+def test_one_count_of_object_pixels_serves_many_of_empty_ones():
+    many = inverse_sensor_model([0, 3, 6], 3)
+    assert many.tolist() == inverse_sensor_model([0, 3, 6], [3, 3, 3]).tolist()
+    assert float(inverse_sensor_model(3, 0)) == inverse_sensor_model([3], [0])[0]
+
+
 def test_arrays_keep_their_shape_and_are_not_written_to():
     n_empty = np.array([[4, 0, 2]], dtype=np.int32)
     n_object = np.array([[0, 4, 2]], dtype=np.int32)
