@@ -44,7 +44,7 @@ def _has_predicted(exercise: Exercise) -> bool:
     if question is None or attempt.first is not None:
         return True
     first = st.radio(
-        f"Predict. {words.prose(question.text)}",
+        f"**Predict.** {words.prose(question.text)}",
         question.options,
         index=None,
         format_func=lambda option: words.prose(shown_option(option)),

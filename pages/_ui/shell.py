@@ -88,6 +88,9 @@ CSS = """
 /* A wide table is swiped by itself; the page stays as wide as the screen. */
 [data-testid="stMarkdownContainer"] table { display: block; overflow-x: auto;
     width: max-content; max-width: 100%; }
+/* A white picture ends somewhere. */
+[data-testid="stImage"] img { outline: 1px solid rgb(128 128 128 / 30%);
+    outline-offset: -1px; }
 /* A number stays in one piece. */
 [data-testid="stMarkdownContainer"] td[style*="right"] { white-space: nowrap; }
 [data-testid="stTable"] { overflow-x: auto; }

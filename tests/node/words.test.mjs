@@ -69,7 +69,7 @@ test("a ladder goes from one total to the next and knows what is still to come",
 test("over several laps a reading is one bar, and its card says what one lap adds", () => {
   const log = { last: [1], previous: [-1, 0], logOdds: [1, -0.5], before: [0, 1], rank: [0, 1] };
   Object.assign(log, { indptr: [0, 1, 2], nReadings: 2 });
-  const column = { log, isWall: [0], logOddsPrior: [0.25, 0], laps: 3, once: false };
+  const column = { log, drawn: [0], logOddsPrior: [0.25, 0], laps: 3, once: false };
   const { prior, terms } = player.historyOf(column, 0);
   const bars = player.ladderOf({ prior, terms }, 2);
   assert.deepEqual(
