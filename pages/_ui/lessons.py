@@ -113,8 +113,8 @@ def _guide(lesson: Lesson) -> None:
 
 
 def beside(path: str, number: int | None = None) -> None:
-    """Draw, where no lesson is open, what to see, what to predict, and why."""
-    if here() is not None:
+    """Draw what to see, what to predict and why, where nothing else asks."""
+    if here() is not None or exercising.is_here():
         return
     on_page = lessons_on(path)
     shown = [one for one in on_page if number in (None, one.number)]

@@ -68,7 +68,7 @@ def _slider(slider: Slider) -> None:
         float(slider.low),
         float(slider.high),
         step=float(slider.step),
-        format="%d" if float(slider.step).is_integer() else "%.2f",
+        format="%g",
         **kept.bind_wall(slider.field, _change),
     )
 
