@@ -10,5 +10,6 @@ with shell.page(state.LENS_PATH) as here:
     state.take_from_lens()
     held = state.limits_of(limits.OF_LENS)
     lens(state.lens_document(), key=state.LENS_KEY, limits=held)
-    lessons.beside(state.LENS_PATH)
-    st.caption(words.SOURCE)
+    with st.container(key="map_words"):
+        lessons.beside(state.LENS_PATH)
+        st.caption(words.SOURCE)

@@ -20,10 +20,12 @@ with shell.page("pages/5_Sweep_the_priors.py") as here:
             *("range_px", "fov_deg", "wall_share", "truth_share"),
         )
 
-    with st.container(horizontal=True, vertical_alignment="center"):
+    is_all = state.settings().drawings is Drawings.ALL
+    level = "bottom" if is_all else "center"  # a choice has its label above it
+    with st.container(horizontal=True, vertical_alignment=level):
         controls.thinning()
-        if state.settings().drawings is Drawings.ALL:
-            controls.select("rule", width=190)
+        if is_all:
+            controls.select("rule", width=320)
             marks.legend()
         else:
             marks.legend(sweeping.EXTRA.get(state.settings().surface))
@@ -32,7 +34,7 @@ with shell.page("pages/5_Sweep_the_priors.py") as here:
     if run.notice:
         st.warning(run.notice)
     shell.truth_notice()
-    if state.settings().drawings is Drawings.ALL:
+    if is_all:
         sweeping.all_drawings()
     else:
         sweeping.one_drawing(run)

@@ -20,10 +20,12 @@ with shell.page(PATH) as here:
             *("range_px", "fov_deg", "wall_share", "truth_share"),
         )
 
-    with st.container(horizontal=True, vertical_alignment="center"):
+    is_one = state.settings().exploring is Exploring.ONE
+    level = "center" if is_one else "bottom"  # a choice has its label above it
+    with st.container(horizontal=True, vertical_alignment=level):
         controls.thinning()
-        if state.settings().exploring is not Exploring.ONE:
-            controls.select("rule", width=190)
+        if not is_one:
+            controls.select("rule", width=320)
         if state.settings().exploring is not Exploring.SEARCH:
             marks.legend()
 
@@ -37,4 +39,5 @@ with shell.page(PATH) as here:
         Exploring.ALL: comparing.all_drawings,
     }
     views[state.settings().exploring](run)
-    lessons.beside(PATH)
+    if is_one:
+        lessons.beside(PATH)

@@ -38,7 +38,7 @@ def press(app, label):
 
 
 def predict(app, option=0):
-    radio = next(one for one in app.radio if one.label.startswith("Predict."))
+    radio = next(one for one in app.radio if one.label.startswith("**Predict.**"))
     radio.set_value(radio.options[option]).run()
 
 
@@ -51,7 +51,14 @@ def test_the_list_has_all_of_them():
     app = AppTest.from_file(str(ROOT / "app.py"), default_timeout=60)
     app.switch_page(LIST).run()
     assert not app.exception
-    assert sum(one.label == "Open" for one in app.button) == 23
+    assert sum(one.label.startswith("Exercise ") for one in app.button) == 23
+
+
+def test_an_open_exercise_asks_alone():
+    """Without what the lesson of its page has to see, or another prediction."""
+    app = opened("one_clear_look")
+    assert not [text for text in said(app.markdown) if text.startswith("**See.**")]
+    assert not [one for one in app.button if one.label.startswith("Open lesson")]
 
 
 def test_every_exercise_opens_on_a_page_that_exists():

@@ -96,11 +96,11 @@ def test_timed_scans_are_placed_by_their_trajectory():
 
 def test_the_words_are_those_of_the_maps_that_are_shown():
     app = launch(PAGE)
-    assert any("Left, where beams ended" in text for text in said(app.markdown))
+    assert any("Where beams ended, all" in text for text in said(app.markdown))
     app.segmented_control(key="view_robot_maps").set_value(scans.BESIDE).run()
     assert not app.exception
     assert any("B is the share of beams" in text for text in said(app.markdown))
-    assert not any("Left, where beams" in text for text in said(app.markdown))
+    assert not any("Where beams ended, all" in text for text in said(app.markdown))
 
 
 def test_scans_without_a_pose_at_their_time_are_counted():

@@ -90,7 +90,7 @@ def test_maps_of_a_building_lie_where_its_robots_map_lay():
     assert lying(app) == at_home
     away = RosMap(values(), 0.05, (-10.0, 2.5, 0.5))
     app = click(give(app, *two_files(away)), "Use as drawing")
-    assert lying(app) == "x = -10 m, y = 2.5 m, turned by 0.5 rad."
+    assert lying(app) == "x = −10 m, y = 2.5 m, turned by 0.5 rad."
     # Another building, of another map, lies elsewhere.
     app.session_state.choice = "b"
     app.run()

@@ -230,7 +230,8 @@ def test_a_wall_parameter_finds_the_walls_again_and_keeps_corrections():
 def test_lengths_are_in_metres_where_the_scale_is_known():
     app = launch("pages/1_Build_a_map.py")
     # Sample a: doors of 40 px and 0.9 m, cells of 3 px.
-    assert app.slider(key=control(app, "cell_px")).label == "Cell size (px; 0.07 m)"
+    label = app.slider(key=control(app, "cell_px")).label
+    assert label.replace("\u00a0", " ") == "Cell size (px; 0.07 m)"
     app = upload(app, "Drawing", "rooms.png", png(rooms()))
     assert app.slider(key=control(app, "cell_px")).label == "Cell size (px)"
 

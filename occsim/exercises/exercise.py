@@ -294,7 +294,10 @@ def _shown(given: Value, is_share: bool) -> str:
         return str(given)
     if given != given:
         return "–"
-    return f"{100 * given:.1f} %" if is_share else f"{given:.4g}"
+    if is_share:
+        return f"{100 * given:.1f} %"
+    is_count = given == round(given)
+    return f"{given:{',.0f' if is_count else '.4g'}}".replace("-", "−")
 
 
 def parsed_checks(rows: Sequence[Mapping[str, str]]) -> tuple[Check, ...]:

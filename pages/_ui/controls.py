@@ -79,7 +79,8 @@ def _unit(name: str) -> str:
     unit = TABLE[name].unit
     metres_per_px = state.building().metres_per_px
     if unit == "px" and metres_per_px is not None:
-        return f" (px; {getattr(state.settings(), name) * metres_per_px:.2f} m)"
+        length = getattr(state.settings(), name) * metres_per_px
+        return f" (px;\u00a0{length:.2f}\u00a0m)"
     return f" ({unit})" if unit else ""
 
 

@@ -63,7 +63,7 @@ def _lit_words(lit: tuple[Outcome, Region] | None, scored: dict[Region, Scores])
     outcome, region = lit
     name, colour = ROWS[outcome]
     n = count(scored[region], outcome)
-    return f"Lit, {colour}: {name.lower()}, {COLUMNS[region]}: {n} cells."
+    return f"Lit, {colour}: {name.lower()}, {COLUMNS[region]}: {words.number(n)} cells."
 
 
 def count(scores: Scores, outcome: Outcome) -> int:
@@ -96,7 +96,7 @@ def _table(scored: dict[Region, Scores]) -> None:
 def _count_button(outcome: Outcome, region: Region, n: int) -> None:
     is_lit = state.view(LIT, None) == (outcome, region)
     st.button(
-        str(n),
+        words.number(n),
         key=f"count {outcome.name} {region.value}",
         help=f"{ROWS[outcome][0]}, {COLUMNS[region]}: show these cells",
         type="primary" if is_lit else "secondary",
@@ -118,4 +118,5 @@ def shares(scored: dict[Region, Scores]) -> str:
 
 def _share(scores: Scores, name: str, other: str) -> str:
     value = words.percent(getattr(scores, name))
-    return f"{scores.tp} / ({scores.tp} + {getattr(scores, other)}) = **{value}**"
+    found, rest = words.number(scores.tp), words.number(getattr(scores, other))
+    return f"{found} / ({found} + {rest}) = **{value}**"

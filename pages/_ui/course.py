@@ -117,9 +117,9 @@ COURSE = (
         title="A map from nothing",
         question="What does a robot without a drawing miss?",
         path="pages/1_Build_a_map.py",
-        see="The map starts at one half everywhere; a reading darkens the cells that "
-        "it takes for wall. At the end show *Errors*: blue walls are missed, and those "
-        "that are not hatched were looked at.",
+        see="Without a drawing the map starts at one half everywhere; a reading "
+        "darkens the cells that it takes for wall. At the end show *Errors*: blue "
+        "walls are missed, and those that are not hatched were looked at.",
         why="The walls that the robot looks at and misses lie across an edge: part of "
         "such a cell is space, and the readings see mostly that part.",
         predict="It sets out without a drawing. Which wall will be on its map first?",
@@ -200,8 +200,8 @@ COURSE = (
         "and watch what the map gains and loses.",
         why="What is best depends on the rule and on the cells that count: *Best "
         "prior* shows three answers for one house.",
-        predict="This is the front of a drawing that is counted once. Where it is "
-        "taken off at every reading, will the best pair be another one?",
+        predict="Take the front of a drawing that is counted once. Where it is taken "
+        "off at every reading, will the best pair be another one?",
         options={
             "same": "no, the same",
             "agrees": "yes, one that agrees with it",

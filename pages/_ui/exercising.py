@@ -44,7 +44,7 @@ def _has_predicted(exercise: Exercise) -> bool:
     if question is None or attempt.first is not None:
         return True
     first = st.radio(
-        f"Predict. {words.prose(question.text)}",
+        f"**Predict.** {words.prose(question.text)}",
         question.options,
         index=None,
         format_func=lambda option: words.prose(shown_option(option)),
@@ -186,10 +186,10 @@ def _row(exercise: Exercise) -> None:
     attempt = kept.attempt_of(exercise)
     status = "solved" if attempt.is_solved else "begun" if attempt.n_checks else ""
     with st.container(horizontal=True, vertical_alignment="center"):
-        open_button(exercise, "Open", "open")
+        open_button(exercise, f"Exercise {exercise.number}", "open")
         st.markdown(
-            f"**{exercise.number}. {words.prose(exercise.title)}** (lesson "
-            f"{exercise.lesson}, {exercise.minutes} min) {status}"
+            f"**{words.prose(exercise.title)}** (lesson\u00a0{exercise.lesson}, "
+            f"{exercise.minutes}\u00a0min) {status}"
         )
 
 

@@ -113,19 +113,22 @@ def _guide(lesson: Lesson) -> None:
 
 
 def beside(path: str, number: int | None = None) -> None:
-    """Draw, where no lesson is open, what to see, what to predict, and why."""
-    if here() is not None:
+    """Draw what to see, what to predict and why, where nothing else asks."""
+    if here() is not None or exercising.is_here():
         return
     on_page = lessons_on(path)
     shown = [one for one in on_page if number in (None, one.number)]
     for lesson in shown:
-        see, predict, why = st.columns(3, gap="large")
+        # The third column comes with the reason.
+        n_columns = 3 if state.prediction(lesson.number) else 2
+        see, predict, *why = st.columns(n_columns, gap="large")
         with see:
             st.markdown(_words("See", lesson.see))
         with predict:
             predicting.ask(lesson)
-        with why:
-            _why(lesson)
+        for column in why:
+            with column:
+                _why(lesson)
     with st.container(horizontal=True):
         for lesson in on_page:
             _open_button(lesson, f"Open lesson {name(lesson)}")

@@ -76,6 +76,7 @@ def table(found: list[NoiseEffect]) -> str:
     )
     return head + "".join(
         f"| {name} | {words.percent(one.exact)} | {words.percent(one.mean)} | "
-        f"{100 * one.change:+.1f} ± {100 * one.half_width:.1f} |\n"
+        f"{words.number(100 * one.change, '+.1f')} ± "
+        f"{words.number(100 * one.half_width, '.1f')} |\n"
         for name, one in zip(MAPS, found, strict=True)
     )

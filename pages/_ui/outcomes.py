@@ -94,14 +94,17 @@ def second() -> Outcome:
     step = float(logit(P_FREE_MAX)) - (prior if seen.rule is SUBTRACT else 0.0)
     p = [float(p_free_from_log_odds(prior + k * step)) for k in range(3)]
     first, then = p[1] - p[0], p[2] - p[1]
-    said = f"From the prior {seen.p_free:.2f}, two empty readings move l by {step:+.2f}"
+    said = f"From the prior {seen.p_free:.2f}, two empty readings "
+    said += f"move l by {words.number(step, '+.2f')}"
+    at_first = words.number(first, "+.3f")
     if abs(first - then) < 0.0005:
         return Outcome(
-            f"{said} each, and p by {first:+.3f} each: from this prior they happen to "
-            "be equal in p as well.",
+            f"{said} each, and p by {at_first} each: from this prior they happen to be "
+            "equal in p as well.",
             "both",
         )
-    return Outcome(f"{said} each, but p by {first:+.3f} and then by {then:+.3f}.", "l")
+    after = words.number(then, "+.3f")
+    return Outcome(f"{said} each, but p by {at_first} and then by {after}.", "l")
 
 
 # --- 3 to 6: maps ---------------------------------------------------------------------

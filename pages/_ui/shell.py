@@ -27,6 +27,20 @@ memory.use_few_arenas()
 ICON = Path(__file__).resolve().parents[2] / "assets" / "icon.svg"
 
 
+# Of a lesson only the question stands above its maps, all else below them: what is done
+# and what comes of it are on one screen.
+QUESTION_FIRST = """
+    ON :is(:has(> .st-key-lesson), .st-key-lesson, .st-key-lesson > :first-child,
+        .st-key-lesson > :first-child > *) { display: contents; }
+    ON :is(.st-key-lesson > :first-child > * > *, .st-key-lesson > :last-child) {
+        flex: none; width: 100%; }
+    ON :is(.st-key-lesson > :first-child > * > :last-child,
+        .st-key-lesson > :last-child) { order: 1; }
+"""
+MAPS = ":has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps))"
+"""What holds a lesson whose maps take a telephone's whole width."""
+
+
 # Streamlit leaves 6 rem above the first line and wide gaps between blocks; the first
 # screen must show map and controls at 1280 x 720.
 CSS = """
@@ -50,7 +64,11 @@ CSS = """
 .occsim-group { display: block; width: 1px; height: 1.25rem; margin: auto;
     background: currentColor; opacity: 0.3; }
 /* A lesson stands above its maps: it takes as little height as it can. */
-.st-key-lesson, .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem; }
+.st-key-lesson, .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem;
+    margin-top: 0.375rem; }
+/* What leads on stands apart from what is answered. */
+.st-key-lesson_ways { margin-top: 0.25rem; padding-top: 0.5rem;
+    border-top: 1px solid color-mix(in srgb, currentColor 20%, transparent); }
 .st-key-lesson [data-testid="stMarkdownContainer"] { margin-bottom: 0; }
 .st-key-lesson [data-testid="stMarkdownContainer"] p { font-size: 0.9375rem;
     line-height: 1.4; margin-bottom: 0.25rem; }
@@ -60,15 +78,22 @@ CSS = """
 .st-key-exercises > div { break-inside: avoid; margin-bottom: 0.5rem; }
 .st-key-exercises > div > div { flex-wrap: nowrap; }
 .st-key-exercises > div > div > :first-child { flex: none; }
+.st-key-exercises button { min-width: 6.25rem; }
 /* The page one is on is the clearest item, not the dimmest. */
 .st-key-current_page a, .st-key-current_page a * {
     color: inherit; opacity: 1; font-weight: 700;
 }
 .st-key-current_page a { box-shadow: inset 0 -2px currentColor; }
-.st-key-lessons a:focus-visible { outline: 2px solid currentColor; }
+[data-testid="stPageLink"] a:focus-visible { outline: 2px solid currentColor; }
 /* A wide table is swiped by itself; the page stays as wide as the screen. */
 [data-testid="stMarkdownContainer"] table { display: block; overflow-x: auto;
     width: max-content; max-width: 100%; }
+/* A white picture ends somewhere. */
+[data-testid="stImage"] img { outline: 1px solid rgb(128 128 128 / 30%);
+    outline-offset: -1px; }
+/* A number stays in one piece. */
+[data-testid="stMarkdownContainer"] td[style*="right"] { white-space: nowrap; }
+[data-testid="stTable"] { overflow-x: auto; }
 /* A term of the glossary: its meaning also shows when Tab or a finger is on it. */
 abbr[title] { cursor: help; text-decoration: underline dotted; }
 abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
@@ -101,17 +126,8 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
 @media (max-width: 640px) {
     .st-key-lesson [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .st-key-lesson button { min-height: 2.75rem; }
-    /* Of a lesson only the question stands above its maps, all else below them: what
-       is done and what comes of it are on one screen. */
-    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
-        :has(> .st-key-lesson), .st-key-lesson, .st-key-lesson > :first-child,
-        .st-key-lesson > :first-child > *) { display: contents; }
-    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
-        .st-key-lesson > :first-child > * > *, .st-key-lesson > :last-child) {
-        flex: none; width: 100%; }
-    :has(> :is(.st-key-lens, .st-key-map_player, .st-key-two_maps)) :is(
-        .st-key-lesson > :first-child > * > :last-child,
-        .st-key-lesson > :last-child) { order: 1; }
+    QUESTION_FIRST
+    .st-key-lesson [class*="st-key-predict_"] { margin-top: 0.375rem; }
     .st-key-exercise { padding: 0.5rem 1rem; gap: 0.25rem; }
     .st-key-exercise [data-testid="stHorizontalBlock"] { gap: 0.5rem; }
     .stMainBlockContainer { padding: 0.5rem 0.75rem 2rem; }
@@ -130,13 +146,19 @@ abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;
         scrollbar-width: none; }
     .st-key-lessons [data-testid="stPageLink"] { flex: none; white-space: nowrap; }
     .st-key-lessons > div { flex: none; }
-    /* The map and its prior come before the settings of the sensor. */
-    :has(> .st-key-map_controls) { order: 1; }
+    /* The sensor's settings in one row to swipe, right above the map that they change;
+       the maps of a lesson, of which there are several, leave no room for it. */
+    .st-key-map_controls { flex-wrap: nowrap; overflow-x: auto; padding-bottom: 4px;
+        scrollbar-width: none; }
+    .st-key-map_controls > * { flex: none; }
+    .st-key-map_controls > :first-child { max-width: 11rem; }
+    :has(> .st-key-two_maps):has(.st-key-lesson) > :has(> .st-key-map_controls) {
+        order: 1; }
     :has(> .st-key-map_words) { order: 2; }
     :has(> .st-key-ending) { order: 3; }
 }
 </style>
-"""
+""".replace("QUESTION_FIRST", QUESTION_FIRST.replace("ON", MAPS))
 
 
 # Read from the back of a room: text 1.4 times as large, thicker marks, no captions. Map
@@ -146,12 +168,17 @@ PROJECTOR_CSS = """
 :root { --occsim-text: 1.4; --occsim-words: none; font-size: 22.4px !important;
     --occsim-canvas-height: clamp(220px, 100vh - 244px, 900px);
     --occsim-canvas-height-several: clamp(180px, 100vh - 404px, 800px); }
+/* A question stands above the maps. */
+:root:has(.st-key-lesson) {
+    --occsim-canvas-height-several: clamp(180px, 100vh - 460px, 800px); }
 [data-testid="stCaptionContainer"], .st-key-map_words, .st-key-home_ways {
     display: none; }
 .stMainBlockContainer h1 { font-size: 1.3rem; padding: 0 0 0.3rem; }
+[data-testid="stHeading"] [data-testid="stMarkdownContainer"] {
+    margin-bottom: -0.4rem; }
 .stMainBlockContainer { padding: 0.3rem 1rem 1rem; }
 .st-key-lessons { flex-wrap: nowrap; overflow-x: auto; gap: 0.25rem;
-    scrollbar-width: none; }
+    padding-bottom: 4px; scrollbar-width: none; }
 /* The numbers of the lessons stay while the pages beside them are swiped. */
 .st-key-navigation { flex-wrap: nowrap; gap: 0.5rem; }
 .st-key-navigation > :first-child { flex: none; }
@@ -160,13 +187,16 @@ PROJECTOR_CSS = """
 .st-key-lessons > div, .st-key-lessons [data-testid="stPageLink"] { flex: none;
     white-space: nowrap; }
 /* The map comes first, what is to be done and the sensor's settings below it. */
-:has(> .st-key-map_controls), :has(> .st-key-lesson), :has(> .st-key-exercise) {
-    order: 1; }
+:has(> .st-key-map_controls), :has(> .st-key-exercise) { order: 1; }
+QUESTION_FIRST
+.st-key-lesson [class*="st-key-predict_"] { flex-flow: row wrap; align-items: center;
+    gap: 0.25rem 1rem; }
+.st-key-lesson [class*="st-key-predict_"] > * { flex: 0 1 auto; width: auto; }
 :has(> .st-key-ending) { order: 3; }
 [data-testid="stProgress"] [role="progressbar"] > div,
 [data-testid="stProgress"] [role="progressbar"] > div > div { height: 1rem; }
 </style>
-"""
+""".replace("QUESTION_FIRST", QUESTION_FIRST.replace("ON ", ""))
 
 
 @contextlib.contextmanager

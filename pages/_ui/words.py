@@ -7,6 +7,7 @@ from pages._ui import glossary
 
 DASH = "–"
 """Shown where a value is undefined."""
+MINUS = "−"
 
 SOURCE = (
     "The source: C. Georgiou, *Constructing informative Bayesian priors to improve "
@@ -68,6 +69,19 @@ def prose(text: str) -> str:
     return "".join(
         f"${_SYMBOLS[part]}$" if i % 2 else plain(part) for i, part in enumerate(parts)
     )
+
+
+def number(value: float, spec: str = ",") -> str:
+    """A number by a format, as it is printed on every page; a dash if undefined.
+
+    With a true minus, and none where it rounds to zero; thousands are apart where the
+    format says so, as it does for a count.
+    """
+    if value != value:
+        return DASH
+    text = format(value, spec)
+    is_zero = not re.search("[1-9]", text)
+    return text.replace("-", "" if is_zero else MINUS)
 
 
 def percent(value: float) -> str:

@@ -99,6 +99,33 @@ def test_map_and_transport_fit_a_projector(chromium, app_url, path, size, more):
     assert picture["width"] * (2 if path == "Build_a_map" else 3) > 0.65 * width
 
 
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
+@pytest.mark.parametrize(
+    ("lesson", "pictures"),
+    [
+        (1, ".lens[data-ready='1'] .stage"),
+        (3, ".player[data-ready='1'] :is([data-pane] canvas, [data-do=play])"),
+        (4, ".player[data-ready='1'] :is([data-pane] canvas, [data-do=play])"),
+        (5, ".player[data-ready='1'] :is([data-pane] canvas, [data-do=play])"),
+    ],
+)
+def test_a_lesson_s_question_is_seen_with_its_maps_on_a_projector(
+    chromium, app_url, lesson, pictures, size
+):
+    width, height = size
+    page = window(chromium, {"width": width, "height": height})
+    path = COURSE[lesson].path.partition("_")[2].removesuffix(".py")
+    page.goto(f"{app_url}/{path}?projector=1&lesson={lesson}")
+    page.locator(pictures).first.wait_for()
+    page.wait_for_timeout(1000)  # the maps take their height
+    question = page.locator(f".st-key-predict_{lesson}")
+    assert question.get_by_role("button").count() == len(COURSE[lesson].options)
+    asked = question.bounding_box()
+    boxes = [one.bounding_box() for one in page.locator(pictures).all()]
+    assert 0 <= asked["y"] < asked["y"] + asked["height"] <= boxes[0]["y"]
+    assert all(box["y"] + box["height"] <= height for box in boxes)
+
+
 def test_on_a_projector_digits_open_the_lessons_and_space_plays(page, app_url):
     page.goto(f"{app_url}/What_the_sensor_says?projector=1")
     page.wait_for_selector(".lens[data-ready='1']")

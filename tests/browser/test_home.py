@@ -24,6 +24,10 @@ LAST = len(load_sample(HOME_SAMPLE).trajectory)
 HALF = LAST // 2
 
 
+def number(text):
+    return int(text.replace(",", ""))
+
+
 def open_home(page, app_url):
     page.goto(app_url)
     page.wait_for_selector(PLAYER)
@@ -61,7 +65,7 @@ def assert_counts(player, step, rule):
         ):
             at = run.scores(prior, rule, region, n_readings=step)
             found = [
-                int(tally.locator(f"[data-tally='{name} {part}']").inner_text())
+                number(tally.locator(f"[data-tally='{name} {part}']").inner_text())
                 for part in ("found", "walls", "false")
             ]
             assert found == [at.tp, at.tp + at.fn, at.fp]

@@ -44,6 +44,16 @@ def test_a_section_with_a_board_fits_a_small_laptop(page, app_url, section):
     assert row["y"] + row["height"] <= 720
 
 
+@pytest.mark.parametrize("section", [4, 5, 6])
+def test_the_tools_of_the_board_are_one_row_on_a_small_laptop(page, app_url, section):
+    page.goto(f"{app_url}/Your_building?section={section}")
+    page.locator(".board[data-ready='1']").wait_for()
+    bar = page.locator(".board .bar > *:visible")
+    boxes = [one.bounding_box() for one in bar.all()]
+    assert len(boxes) >= 4
+    assert len({box["y"] + box["height"] / 2 for box in boxes}) == 1
+
+
 def test_the_board_s_slider_ends_at_the_edge_of_a_telephone(chromium, app_url):
     context = chromium.new_context(viewport={"width": 390, "height": 844})
     page = context.new_page()
@@ -87,6 +97,25 @@ def test_the_map_stays_in_sight_of_its_controls(
         assert is_whole_on_screen(player.locator(picture))
 
 
+@pytest.mark.parametrize("path", ["Build_a_map", "Build_a_map?lesson=3", "Two_maps"])
+def test_the_sensor_s_settings_stand_above_their_map_on_a_telephone(
+    phone, app_url, path
+):
+    """In one row to swipe: a slider that is moved changes a map that is seen."""
+    phone.goto(f"{app_url}/{path}")
+    phone.locator(".player[data-ready='1']").wait_for()
+    phone.wait_for_timeout(500)  # the maps take their height
+    row = phone.locator(".st-key-map_controls")
+    sliders = row.get_by_role("slider").all()
+    assert len(sliders) == (2 if path == "Two_maps" else 3)
+    for slider in sliders:
+        slider.scroll_into_view_if_needed()
+        assert is_whole_on_screen(slider)
+        assert is_whole_on_screen(phone.locator("[data-pane=map] canvas").first)
+    assert row.bounding_box()["height"] < 100
+    assert phone.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
 @pytest.mark.parametrize("section", [4, 5])
 def test_the_board_s_sliders_can_be_moved_on_a_telephone(phone, app_url, section):
     phone.goto(f"{app_url}/Your_building?section={section}")
@@ -98,7 +127,7 @@ def test_the_board_s_sliders_can_be_moved_on_a_telephone(phone, app_url, section
 def test_an_exercise_stands_beside_its_button_on_a_telephone(phone, app_url):
     phone.goto(f"{app_url}/Exercises")
     row = phone.locator(".st-key-exercises > div").filter(has_text="What is behind")
-    button = row.get_by_role("button", name="Open").bounding_box()
+    button = row.get_by_role("button", name="Exercise 2").bounding_box()
     title = row.get_by_text("What is behind the pillar?").bounding_box()
     assert title["x"] >= button["x"] + button["width"]
     assert abs(title["y"] - button["y"]) < button["height"]

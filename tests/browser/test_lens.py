@@ -117,7 +117,7 @@ def test_exercise_1_a_reading_that_says_nothing_is_found_by_hand(page, app_url):
 def test_exercise_1_is_judged_by_what_is_on_the_screen(page, app_url):
     """The click on Check follows the last choice at once."""
     page.goto(f"{app_url}/Exercises")
-    page.get_by_role("button", name="Open", exact=True).first.click()
+    page.get_by_role("button", name="Exercise 1", exact=True).click()
     lens = ready(page)
     settled(page)
     page.get_by_text("yes", exact=True).first.click()

@@ -83,20 +83,18 @@ test("what a map is worth is said in words, with one reading and with several", 
     player.worthWords({ all: { bits: [bits] }, looked: { f2: [f2] } }, blank, 0);
   assert.equal(
     words(0.3, 0.4),
-    "A blank map needs 3 readings to know as much (bits, all cells); " +
-      "1 reading is enough for this F2 (looked at by then)",
+    "Blank map: as few bits (all cells) after 3 readings; this F2 (looked at by then) after 1 reading",
   );
   assert.equal(
     words(0.6, 0.9),
-    "A blank map needs 1 reading to know as much (bits, all cells); " +
-      "3 readings are enough for this F2 (looked at by then)",
+    "Blank map: as few bits (all cells) after 1 reading; this F2 (looked at by then) after 3 readings",
   );
   assert.equal(
     words(0.1, 0.95),
-    "No blank map of this tour knows as much (bits, all cells); none reaches this F2 (looked at by then)",
+    "Blank map: as few bits (all cells) never on this tour; this F2 (looked at by then) never on this tour",
   );
   assert.equal(
     words(1, NaN),
-    "A blank map needs 0 readings to know as much (bits, all cells); \u2013 for this F2 (looked at by then)",
+    "Blank map: as few bits (all cells) after 0 readings",
   );
 });

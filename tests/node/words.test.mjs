@@ -11,6 +11,10 @@ test("numbers have a true minus, and no minus where they round to zero", () => {
   assert.equal(player.signed(-1.5, 1), "\u22121.5");
 });
 
+test("thousands of a count are apart", () => {
+  assert.deepEqual([0, 999, 1103, 1234567].map(player.grouped), ["0", "999", "1,103", "1,234,567"]);
+});
+
 test("a probability near 0 or 1 is not shown as certain", () => {
   assert.equal(player.probability(0.18), "0.180");
   assert.equal(player.probability(0.00012), "0.00012");
@@ -59,6 +63,30 @@ test("a ladder goes from one total to the next and knows what is still to come",
     bars.map(({ isDone }) => isDone),
     [true, true, false],
   );
+});
+
+// By hand: two readings of one cell, +1 and -0.5, in each of three laps; l_0 is 0.25.
+test("over several laps a reading is one bar, and its card says what one lap adds", () => {
+  const log = { last: [1], previous: [-1, 0], logOdds: [1, -0.5], before: [0, 1], rank: [0, 1] };
+  Object.assign(log, { indptr: [0, 1, 2], nReadings: 2 });
+  const column = { log, drawn: [0], logOddsPrior: [0.25, 0], laps: 3, once: false };
+  const { prior, terms } = player.historyOf(column, 0);
+  const bars = player.ladderOf({ prior, terms }, 2);
+  assert.deepEqual(
+    bars.map(({ label }) => label),
+    ["prior", "1 \u00d73", "", "2 \u00d73", ""],
+  );
+  // 0.25 + 3 (1 - 0.25), then + 3 (-0.5 - 0.25).
+  assert.deepEqual(terms.map(({ total }) => total), [2.5, 0.25]);
+  const [title, facts] = player.termCard(column, bars[1]);
+  assert.equal(title, "Reading 1");
+  assert.deepEqual(Object.fromEntries(facts), {
+    "p_free(reading)": "0.731",
+    "its log-odds": "+1.000",
+    "less l_0": "\u22120.250",
+    "3 laps add": "+2.250",
+    "then l": "+2.500",
+  });
 });
 
 test("ticks are round and few", () => {

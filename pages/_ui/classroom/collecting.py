@@ -19,7 +19,8 @@ def section() -> None:
     st.markdown(
         "Students download *Progress as a file* on the page Exercises and send it to "
         "you. Upload the files here. Every result is judged again from the state in "
-        "the file, so an edited result is recognised. Nothing is kept on this server."
+        "the file, so an edited result is recognised. The state has every setting, "
+        "also those that were hidden. Nothing is kept on this server."
     )
     files = st.file_uploader(
         "Progress files",
@@ -63,8 +64,10 @@ def _student(name: str, data: bytes, known: Sequence[Exercise]) -> Student | Non
 
 def _table(students: list[Student], found: Sequence[Exercise]) -> None:
     names = handed_in.column_names(found)
+    # The table's own button writes it as CSV.
     rows = [
-        {"student": one.name} | {names[e.id]: handed_in.status(one, e) for e in found}
+        {"student": handed_in.cell(one.name)}
+        | {names[e.id]: handed_in.status(one, e) for e in found}
         for one in students
     ]
     st.dataframe(rows, hide_index=True, width="stretch")

@@ -121,7 +121,7 @@ def as_csv(students: Sequence[Student], exercises: Sequence[Exercise]) -> str:
     writer.writerow(COLUMNS)
     for student in students:
         for one in begun([student], exercises):
-            writer.writerow([_cell(value) for value in _row(student, one)])
+            writer.writerow([cell(value) for value in _row(student, one)])
     return file.getvalue()
 
 
@@ -143,6 +143,7 @@ def _row(student: Student, exercise: Exercise) -> list[str | int]:
     ]
 
 
-def _cell(value: str | int) -> str | int:
+def cell(value: str | int) -> str | int:
+    """A value of a table that a sheet may open: what it would work out stays text."""
     is_formula = isinstance(value, str) and value.startswith(FORMULA)
     return f"'{value}" if is_formula else value

@@ -14,6 +14,7 @@ from pages._ui.classroom.prepared import ClassError, Prepared, packed
 from pages._ui.exercise_pages import FOLDER_PAGES
 from pages._ui.limits import NAMES, OF_PAGES, OUTPUTS
 from pages._ui.qr import qr_html
+from pages._ui.settings import TABLE
 
 SHOW, LOCK, HIDE = "show", "lock", "hide"
 MADE = "class_made"
@@ -95,7 +96,7 @@ def _value(name: str) -> str:
     if isinstance(value, bool):
         return ": on" if value else ": off"
     if isinstance(value, (int, float)):
-        return f": {value:g}"
+        return f": {words.number(value, 'g')} {TABLE[name].unit}".rstrip()
     return f": {words.maths(CHOICES[value])}"
 
 

@@ -7,7 +7,7 @@ from pages._ui.priors import fronts, maps
 from pages._ui.priors.marks import CALIBRATED, IN_BITS, MarkedPrior
 from pages._ui.priors.scores import BLANK
 from pages._ui.runs import Run
-from pages._ui.words import percent
+from pages._ui.words import number, percent
 
 
 def front_text(run: Run) -> str:
@@ -80,7 +80,8 @@ def source_text(run: Run) -> str:
     pair = maps.pair_text(*SOURCE_PAIR)
     if any(value != value for value in change):
         return f"The source's {pair} cannot be compared with the blank map."
-    gains = f"precision {change[0]:+.1f}, recall {change[1]:+.1f} points"
+    first, second = (number(one, "+.1f") for one in change)
+    gains = f"precision {first}, recall {second} points"
     return f"Beside the blank map the source's {pair} is {_verdict(change)}: {gains}."
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from occsim import Prior, Region, UpdateRule
 from pages._ui.runs import Run
-from pages._ui.words import DASH, percent, term
+from pages._ui.words import number, percent, term
 
 COLUMNS = {Region.EXPLORED: "looked at", Region.UNEXPLORED: "not looked at"}
 BLANK = Prior.uninformative()
@@ -48,7 +48,7 @@ def both_rules(run: Run) -> list[Run]:
 
 def bits(value: float) -> str:
     """Bits per cell; a dash where there is no cell."""
-    return DASH if value != value else f"{value:.3f}"
+    return number(value, ".3f")
 
 
 def values(run: Run, prior: Prior, rule: UpdateRule | None = None) -> list[Values]:

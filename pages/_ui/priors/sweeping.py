@@ -137,11 +137,14 @@ def show_maxima(runs: dict[str, Run], title: str, heading: str) -> None:
             sweeps = map(surfaces.source_sweep, scores.both_rules(run))
             found = [maxima(sweep, which) for sweep in sweeps]
             cells = [
-                f"{words.percent(best.value)} | {words.ranges(best.text)}"
+                text
                 for best in found
+                for text in (words.percent(best.value), words.ranges(best.text))
             ]
             blank = words.percent(getattr(run.scores(scores.BLANK), which.value))
-            lines.append(f"| {name} | {which.value} | {' | '.join(cells)} | {blank} |")
+            row = [name, which.value, *cells, blank]
+            on_one_line = [text.replace(" ", "\u00a0") for text in row]
+            lines.append(f"| {' | '.join(on_one_line)} |")
     st.markdown(f"**Maxima of the 10 × 10 pairs: {title}**")
     st.markdown("\n".join(lines))
     where = words.maths("at which (p_wall, p_space)")

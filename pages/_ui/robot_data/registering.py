@@ -182,7 +182,7 @@ def _numbers(so_far: Registrations, made: PlayedLog) -> None:
     agreed = [registered.agrees(walls, step, made) for step in steps]
     shown = [
         f"{words.percent(one.share_found)} of the drawn walls that the robot looked at "
-        f"are walls in its map, {round(one.bits):+,} bits"
+        f"are walls in its map, {words.number(round(one.bits), '+,')} bits"
         for one in agreed
     ]
     before = f" Before: {shown[0]}." if len(shown) == 2 else ""
@@ -200,8 +200,9 @@ def where(registration: Registration, made: PlayedLog) -> str:
     )
     return (
         f"A pixel of the drawing is {1000 * scale * registration.scale:.1f} mm; turned "
-        f"{abs(turn):.1f}° {side}; its upper left corner is at x = {x:.2f} m, y = "
-        f"{y:.2f} m from the map's, y down."
+        f"{abs(turn):.1f}° {side}; its upper left corner is at x = "
+        f"{words.number(x, '.2f')} m, y = {words.number(y, '.2f')} m from the map's, y "
+        "down."
     )
 
 
@@ -315,8 +316,7 @@ def _bits(
     rows = ["| Map | Bits per cell, on scans held out |", "|---|---|"]
     for letter, column in zip("ABC", columns, strict=False):
         bits = registered.held_out(log_key, made, walls, column)
-        shown = "–" if math.isnan(bits) else f"{bits:.3f}"
-        rows.append(f"| **{letter}** {_said(column)} | {shown} |")
+        rows.append(f"| **{letter}** {_said(column)} | {words.number(bits, '.3f')} |")
     table, about = st.columns([2, 3])
     with table, st.container(key="held_out_bits"):
         st.markdown("\n".join(rows))

@@ -100,8 +100,9 @@ def facts(name: str, ros_map: RosMap) -> str:
 
 def _place(frame: MetricFrame) -> str:
     return (
-        f"x = {frame.origin_x_m:g} m, y = {frame.origin_y_m:g} m, turned by "
-        f"{frame.origin_yaw_rad:g} rad"
+        f"x = {words.number(frame.origin_x_m, 'g')} m, y = "
+        f"{words.number(frame.origin_y_m, 'g')} m, turned by "
+        f"{words.number(frame.origin_yaw_rad, 'g')} rad"
     )
 
 

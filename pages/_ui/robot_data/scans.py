@@ -22,7 +22,7 @@ COUNTS = replace(LOG_COLUMNS[0], model=CellModel.HITS_VISITS)
 MAPS = {ONE: LOG_COLUMNS, BESIDE: (*LOG_COLUMNS, COUNTS)}
 """The maps of a log that can be shown."""
 SEE = {
-    ONE: "Left, where beams ended, all scans together; right, the map. A cell turns "
+    ONE: "Where beams ended, all scans together, and the map. A cell turns "
     "white where beams pass and black where they end; a hatched one was never looked "
     "at.",
     BESIDE: "A adds up what scans say of a cell; B is the share of beams that end in "

@@ -68,6 +68,7 @@ def _slider(slider: Slider) -> None:
         float(slider.low),
         float(slider.high),
         step=float(slider.step),
+        format="%g",
         **kept.bind_wall(slider.field, _change),
     )
 

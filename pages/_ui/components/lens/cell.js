@@ -78,5 +78,5 @@ function pixelWords({ world, state, constants, hover: { row, col } }) {
 
 function showHidden({ root, world, kinds }) {
   const n = countHidden(world, kinds);
-  setText(partOf(root, "n-hidden"), `${n} free pixel${n === 1 ? " is" : "s are"} called object`);
+  setText(partOf(root, "n-hidden"), `${grouped(n)} free pixel${n === 1 ? " is" : "s are"} called object`);
 }

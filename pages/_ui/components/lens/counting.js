@@ -14,8 +14,6 @@ const RULES = [
   ["subtract_prior", "taken off each time"],
 ];
 
-const grouped = (count) => count.toLocaleString("en-US");
-
 function showCounting(p) {
   const { cells, free, wall } = countedCells(p.state.prior, { empty: 0, object: 0 }, p.constants);
   const words = `Of ${grouped(cells)} cells with this prior ${grouped(free)} are free and ${grouped(wall)} wall.`;

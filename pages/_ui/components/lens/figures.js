@@ -72,5 +72,5 @@ function buildSaving(p) {
     { label: "Figure of this reading, PNG", save: png },
     { label: "Figure of this reading, SVG", save: svg },
   ]);
-  p.root.querySelector(".legend").append(menu);
+  p.root.querySelector(".under").append(menu);
 }

@@ -31,7 +31,7 @@ function showLine(p) {
   p.line = { reach, x, width };
   const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" });
   picture.setAttribute("aria-label", `Number line of log-odds. ${sumWords(p)}`);
-  picture.append(...axis(x, reach), ...rungs(bars, x, state.prior), ...totalMark(bars.at(-1).to, x, width));
+  picture.append(...axis(x, reach), ...totalMark(bars.at(-1).to, x, width), ...rungs(bars, x, state.prior));
   partOf(root, "picture").replaceChildren(picture);
   placePrior(p);
   showSum(p, bars);

@@ -90,8 +90,8 @@ function labelOf(said) {
 function drawLabels(p, context) {
   const { cells, scale, colours, theme } = p;
   const side = cells.cellPx * scale;
-  if (side < LABEL_MIN) return;
-  context.font = `${clamp(side / 5, 9, 14)}px ${theme.font}`;
+  if (side < LABEL_MIN * theme.large) return;
+  context.font = `${clamp(side / 5, 9, 14) * theme.large}px ${theme.font}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   context.lineJoin = "round";

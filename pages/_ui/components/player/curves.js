@@ -1,14 +1,16 @@
 // The charts below the map: scores over the readings. Each is drawn once for a set of
 // maps; a step of the replay shows more of it and moves the marks.
 
-const CURVE_ROOM = { left: 4, right: 36, top: 6, bottom: 6 };
+const CURVE_ROOM = { left: 4, right: 36, top: 6, bottom: 6 }; // px
+// The words beside a curve are larger on a projector.
+const curveRoom = ({ large }) => ({ ...CURVE_ROOM, right: CURVE_ROOM.right * large });
 const DASHES = [[], [5, 3], [2, 2]];
 const BLANK_LINE = { dash: [], width: 1 };
 
 const UNITS = {
   share: { text: percent, most: () => 1, tick: (v) => `${Math.round(100 * v)} %` },
   bits: { text: (v) => inBits(v), most: (m) => Math.max(1, m), tick: (v) => fixed(v, 1) },
-  cells: { text: (v) => String(v), most: (m) => Math.max(1, m), tick: (v) => String(Math.round(v)) },
+  cells: { text: grouped, most: (m) => Math.max(1, m), tick: (v) => grouped(Math.round(v)) },
 };
 
 function buildTiles(p) {
@@ -30,7 +32,7 @@ function newTile(p, { name, label, about, unit, region, meaning }) {
 }
 
 function scrubOn(p, canvas) {
-  const go = (event) => goTo(p, stepAtCurve(canvas, event, p.scene.nReadings));
+  const go = (event) => goTo(p, stepAtCurve(p, canvas, event));
   canvas.addEventListener("pointerdown", (event) => {
     pause(p);
     canvas.setPointerCapture(event.pointerId);
@@ -42,11 +44,11 @@ function scrubOn(p, canvas) {
   canvas.addEventListener("pointerup", () => commit(p));
 }
 
-function stepAtCurve(canvas, event, last) {
+function stepAtCurve({ scene, theme }, canvas, event) {
   const box = canvas.getBoundingClientRect();
-  const { left, right } = CURVE_ROOM;
+  const { left, right } = curveRoom(theme);
   const share = (event.clientX - box.left - left) / (box.width - left - right);
-  return Math.round(clamp(share, 0, 1) * last);
+  return Math.round(clamp(share, 0, 1) * scene.nReadings);
 }
 
 // ---- lines -------------------------------------------------------------------------------
@@ -115,7 +117,7 @@ function forgetCurves(p) {
 function drawTile(tile, step, theme) {
   const { context, width, height } = fitted(tile.canvas);
   if (width === 0) return;
-  const axes = axesOf(tile, width, height);
+  const axes = axesOf(tile, curveRoom(theme), width, height);
   if (tile.picture?.width !== tile.canvas.width) tile.picture = pictureOfLines(tile, axes);
   drawLevels(context, axes, theme);
   const at = axes.x(step);
@@ -134,9 +136,8 @@ function drawTile(tile, step, theme) {
   for (const { values, colour } of tile.lines) drawMark(context, axes, step, values[step], colour);
 }
 
-function axesOf({ lines, unit }, width, height) {
+function axesOf({ lines, unit }, { left, right, top, bottom }, width, height) {
   const last = Math.max(1, lines[0].values.length - 1);
-  const { left, right, top, bottom } = CURVE_ROOM;
   // 0 to 100 % whatever the values; what has no upper end, up to its highest value.
   const highest = lines.map(({ values }) => values.reduce((m, v) => (v > m ? v : m), 0));
   const most = unit.most(Math.max(...highest));

@@ -80,20 +80,13 @@ function showTable(p, { cells, heads, worth }, column) {
 // How many readings without a drawing are as good as the map is now.
 function worthWords(series, blank, step) {
   const bits = worthInReadings(blank.all.bits, series.all.bits, step, -1);
-  const knows =
-    bits === null
-      ? "No blank map of this tour knows as much"
-      : `A blank map needs ${readingsWords(bits)} to know as much`;
-  return `${knows} (bits, all cells); ${f2Words(series, blank, step)} this F2 (looked at by then)`;
-}
-
-function f2Words(series, blank, step) {
-  if (Number.isNaN(series.looked.f2[step])) return `${DASH} for`;
+  const knows = `Blank map: as few bits (all cells) ${whenWords(bits)}`;
+  if (Number.isNaN(series.looked.f2[step])) return knows;
   const n = worthInReadings(blank.looked.f2, series.looked.f2, step, 1);
-  return n === null ? "none reaches" : `${readingsWords(n)} ${n === 1 ? "is" : "are"} enough for`;
+  return `${knows}; this F2 (looked at by then) ${whenWords(n)}`;
 }
 
-const readingsWords = (n) => `${n} ${n === 1 ? "reading" : "readings"}`;
+const whenWords = (n) => (n === null ? "never on this tour" : `after ${n} ${n === 1 ? "reading" : "readings"}`);
 
 // ---- ladders -----------------------------------------------------------------------------
 
@@ -138,7 +131,7 @@ function verdictWords({ header, pin }, column) {
 
 function countWords({ hasTruth }, { log }, c, verdict) {
   const { hits, visits } = beamsOf(log, c);
-  const words = `${hits} of ${visits} beams end here: declared ${verdict}`;
+  const words = `${grouped(hits)} of ${grouped(visits)} beams end here: declared ${verdict}`;
   return hasTruth ? `${words}; in truth ${log.truth[c] ? "wall" : "free"}` : words;
 }
 
@@ -152,12 +145,13 @@ function termCard(column, { term, to, isOff }) {
       ],
     ];
   if (column.log.coded) return [`Scan ${term.reading + 1}`, [["visits / 4 less hits", signed(term.said, 2)]]];
+  const { laps } = term;
   const facts = [
-    ["p_free(reading)", probability(pFreeOf(term.said))],
-    ["its log-odds", signed(term.said, 3)],
-    ["adds", signed(term.added, 3)],
+    ["p_free(reading)", probability(pFreeOf(term.said / laps))],
+    ["its log-odds", signed(term.said / laps, 3)],
+    [laps > 1 ? `${laps} laps add` : "adds", signed(term.added, 3)],
     ["then l", signed(term.total, 3)],
   ];
-  if (!column.once) facts.splice(2, 0, ["less l_0", signed(term.off, 3)]);
+  if (!column.once) facts.splice(2, 0, ["less l_0", signed(term.off / laps, 3)]);
   return [`Reading ${term.reading + 1}${isOff ? ", its prior taken off" : ""}`, facts];
 }

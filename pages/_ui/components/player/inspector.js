@@ -115,12 +115,12 @@ function cellFacts({ header }, column, c) {
   const declared = ["declared", declaresWall(column, logOdds) ? "wall" : "no wall"];
   if (column.log.coded) {
     const { hits, visits } = beamsOf(column.log, c);
-    return [...known, ["beams that end here", String(hits)], ["or pass", String(visits - hits)], declared];
+    return [...known, ["beams that end here", grouped(hits)], ["or pass", grouped(visits - hits)], declared];
   }
   return [
     ...known,
     ["prior p_free", pFreeOf(priorOf(column, c)).toFixed(3)],
-    ["readings k", String(column.laps * counts[c])],
+    ["readings k", grouped(column.laps * counts[c])],
     ["log-odds l", signed(logOdds, 3)],
     declared,
     ["p_free", probability(pFreeOf(logOdds))],

@@ -140,7 +140,7 @@ function readingOf({ indptr, nReadings }, entry) {
 }
 
 // Every reading of one cell, in order: its value, the prior subtracted with it, the term
-// that both add, and the total; of all laps together.
+// that both add, and the total; each once for every lap.
 function historyOf(column, c) {
   const { log } = column;
   const prior = priorOf(column, c);
@@ -151,7 +151,7 @@ function historyOf(column, c) {
     const said = laps * log.logOdds[e];
     const sum = log.before[e] + log.logOdds[e];
     const total = log.coded ? sum : fused(column, c, sum, log.rank[e] + 1);
-    terms.push({ reading: readingOf(log, e), said, off, added: said + off, total });
+    terms.push({ reading: readingOf(log, e), said, off, added: said + off, total, laps });
   }
   return { prior, terms: terms.reverse() };
 }

@@ -81,7 +81,7 @@ function showReferee(p) {
   for (const where of ["looked", "unseen"]) {
     const { differ, right } = countsOf(p.comparison, where === "looked");
     [...right, differ].forEach((n, i) => {
-      setText(counts[`${where} ${i}`], String(n));
+      setText(counts[`${where} ${i}`], grouped(n));
       counts[`${where} ${i}`].disabled = n === 0;
     });
   }

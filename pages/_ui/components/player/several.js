@@ -85,7 +85,7 @@ const QUESTION = "Before it drives: which map will find more of the walls that t
 function foundWords(p, predicted, step) {
   const found = p.columns.map(({ curves }, i) => {
     const [hits, , missed] = curves.looked.counts.map((count) => count[step]);
-    return `${LETTERS[i]} finds ${hits} of ${hits + missed}`;
+    return `${LETTERS[i]} finds ${grouped(hits)} of ${grouped(hits + missed)}`;
   });
   const said = predicted === ALIKE ? "none more than another" : LETTERS[predicted];
   return `${predicted === null ? "" : `You said: ${said}. `}Of the walls looked at, ${found.join(", ")}.`;

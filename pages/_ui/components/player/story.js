@@ -102,7 +102,7 @@ function storyWords(p) {
 
 function tallyWords({ columns, state }, i) {
   const [found, falses, missed] = columns[i].curves.looked.counts.map((count) => count[state.step]);
-  return `${found} of ${found + missed} walls looked at found, ${falses} false`;
+  return `${grouped(found)} of ${grouped(found + missed)} walls looked at found, ${grouped(falses)} false`;
 }
 
 // ---- the count below each map ------------------------------------------------------------
@@ -134,9 +134,9 @@ function showTally(p, { tally, f2, column: i }) {
   const { curves } = p.columns[i];
   for (const region of TABLE_REGIONS) {
     const [found, falses, missed] = curves[region].counts.map((count) => count[p.state.step]);
-    setText(tally[`${region} found`], String(found));
-    setText(tally[`${region} walls`], String(found + missed));
-    setText(tally[`${region} false`], String(falses));
+    setText(tally[`${region} found`], grouped(found));
+    setText(tally[`${region} walls`], grouped(found + missed));
+    setText(tally[`${region} false`], grouped(falses));
   }
   f2.classList.toggle("unseen", !isOver(p));
   if (isOver(p)) setText(tally.f2, f2Change(p, i));

@@ -1,19 +1,23 @@
 // The log-odds of one cell as a ladder: the prior, then the terms of each reading from the
-// old total to the new. Where the rule subtracts the prior, a reading has two terms.
+// old total to the new. Where the rule subtracts the prior, a reading has two terms. Over
+// several laps a reading is one bar of as many equal parts.
 
 const TERMS_ROOM = { left: 34, right: 8, top: 6, bottom: 17 };
 const SLOT_MAX = 36;
+const PART_MIN = 3; // px: lower parts would be all lines
 
 function ladderOf({ prior, terms }, step) {
   const bars = [{ label: "prior", from: 0, to: prior, isDone: true, term: null }];
   for (const term of terms) {
     const { from, middle } = spanOf(bars[bars.length - 1].to, term);
     const shared = { term, isDone: term.reading < step };
-    bars.push({ ...shared, label: String(term.reading + 1), from, to: middle });
+    bars.push({ ...shared, label: readingLabel(term), from, to: middle });
     if (term.off) bars.push({ ...shared, label: "", isOff: true, from: middle, to: term.total });
   }
   return bars;
 }
+
+const readingLabel = ({ reading, laps }) => `${reading + 1}${laps > 1 ? ` \u00d7${laps}` : ""}`;
 
 // With one term a reading ends at its total, which is exact.
 function spanOf(from, { said, off, total }) {
@@ -84,9 +88,20 @@ function drawBars(context, y, { bars, slot }, theme, colours) {
     context.fillStyle = colour;
     context.fillRect(...box);
     if (bar.isOff) outline(context, box, colour, alpha);
+    divide(context, box, bar.term?.laps ?? 1, theme);
     traceLine(context, x, to, x + (i + 1 < bars.length ? slot : thick), to);
     strokeLine(context, theme.ink, 1.5, alpha);
   });
+}
+
+// Between the laps of a reading.
+function divide(context, [x, top, width, height], laps, theme) {
+  if (height < PART_MIN * laps) return;
+  for (let lap = 1; lap < laps; lap++) {
+    const at = top + (lap / laps) * height;
+    traceLine(context, x, at, x + width, at);
+    strokeLine(context, theme.paper, 1);
+  }
 }
 
 function outline(context, [x, top, width, height], colour, alpha) {

@@ -8,6 +8,9 @@ function fixed(value, digits) {
   return value < 0 && Number(text) !== 0 ? MINUS + text : text;
 }
 
+// A whole number, its thousands apart.
+const grouped = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, ",");
+
 const signed = (value, digits) => (value >= 0 ? "+" : "") + fixed(value, digits);
 
 // A score; a dash if undefined.
