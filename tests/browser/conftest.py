@@ -3,7 +3,7 @@
 import contextlib
 
 import pytest
-from playwright.sync_api import Error
+from playwright.sync_api import Error, expect
 
 from tests.browser.running import (
     complaints,
@@ -11,6 +11,10 @@ from tests.browser.running import (
     running_app,
     running_chromium,
 )
+
+PATIENCE_MS = 30_000
+"""A test fails later, but not because the machine is busy."""
+expect.set_options(timeout=PATIENCE_MS)
 
 
 @pytest.fixture(scope="session")
@@ -38,7 +42,7 @@ class Windows:
 
     def new_context(self, **options):
         context = self.browser.new_context(**options)
-        context.set_default_timeout(30_000)
+        context.set_default_timeout(PATIENCE_MS)
         context.on("weberror", lambda event: self.errors.append(str(event.error)))
         context.on("console", lambda line: self.errors.extend(complaints(line)))
         self.contexts.append(context)
