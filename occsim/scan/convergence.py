@@ -54,11 +54,11 @@ def beam_distances(
 
     Examples
     --------
-    >>> from occsim import Trajectory, beam_distances, load_sample
+    >>> from occsim import Sensor, Trajectory, beam_distances, load_sample
     >>> sample = load_sample("d")
     >>> few = Trajectory(sample.trajectory.poses[::40])
-    >>> grid = sample.world.grid(3)
-    >>> far = beam_distances(sample.world, few, sample.sensor, grid, [3, 30, 300])
+    >>> all_round, grid = Sensor(range_px=100, fov_rad=6), sample.world.grid(3)
+    >>> far = beam_distances(sample.world, few, all_round, grid, [10, 30, 90])
     >>> bool(far[0] > far[1] > far[2])
     True
     """

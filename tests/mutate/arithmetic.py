@@ -61,8 +61,8 @@ ARITHMETIC: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/sensor.py",
-        "logit(np.clip(q, P_FREE_MIN, P_FREE_MAX))",
-        "logit(q)",
+        "np.minimum(np.maximum(empty / (empty + objects), P_FREE_MIN), P_FREE_MAX)",
+        "empty / (empty + objects)",
         ("tests/test_sensor.py", "tests/test_evidence.py"),
         "mixed cells are kept within 0.1 to 0.9",
     ),

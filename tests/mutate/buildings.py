@@ -75,8 +75,8 @@ BUILDINGS: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/building/building.py",
-        "(self.wall_mask, self.world.occupied, self.trajectory.poses)",
-        "(self.walls_found, self.world.occupied, self.trajectory.poses)",
+        "[self.wall_mask, self.world.occupied, self.trajectory.poses]",
+        "[self.walls_found, self.world.occupied, self.trajectory.poses]",
         ("tests/test_building.py",),
         "the digest follows the corrections",
     ),
@@ -116,7 +116,7 @@ BUILDINGS: tuple[Mutation, ...] = (
         "a long table of contents is not read",
     ),
     Mutation(
-        "occsim/io/project/values.py",
+        "occsim/io/project/checks.py",
         'return not any("\\ud800" <= character <= "\\udfff" for character in value)',
         "return True",
         ("tests/test_project.py",),

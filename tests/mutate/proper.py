@@ -129,8 +129,8 @@ PROPER: tuple[Mutation, ...] = (
     ),
     Mutation(
         "occsim/run/run.py",
-        "replace(self, log=self.evidence, prior_mask=mask)",
-        "replace(self, prior_mask=mask)",
+        "replace(self, log=log, prior_mask=mask, prior_unknown=unknown)",
+        "replace(self, prior_mask=mask, prior_unknown=unknown)",
         ("tests/test_run.py",),
         "another prior does not simulate the readings again",
     ),

@@ -102,8 +102,8 @@ _ROWS = (
     ),
     (
         "player/model.js",
-        "if (!truth[c]) free[isWall[c]]++;",
-        "if (truth[c]) free[isWall[c]]++;",
+        "if (!truth[c]) free[drawn[c]]++;",
+        "if (truth[c]) free[drawn[c]]++;",
         MODEL,
         "a calibrated pair of walls, not of free cells",
     ),
