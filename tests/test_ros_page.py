@@ -192,6 +192,7 @@ def test_of_a_zip_of_several_maps_one_is_chosen():
     assert not app.error
     assert any(t.startswith("lower.yaml: 80 × 60 px of 0.1") for t in said(app.caption))
     choice = next(box for box in app.selectbox if box.label == "One of 2 maps")
+    assert choice.options == ["lower.yaml", "upper.yaml"]
     choice.set_value("upper.yaml").run()
     assert any(t.startswith("upper.yaml: 160 × 120") for t in said(app.caption))
     app = click(app, "Use as drawing")

@@ -8,6 +8,7 @@ from typing import Any
 import streamlit as st
 
 from occsim import Corrections
+from occsim._files import printable
 from occsim.building import Building, mask_of_size
 from occsim.io.images import drawing_png
 from occsim.io.metric import MetricFrame
@@ -139,7 +140,7 @@ def _choose() -> None:
     st.selectbox(
         f"One of {len(names)} maps",
         names,
-        format_func=words.plain,
+        format_func=printable,  # options are no Markdown
         **state.bind_view(WHICH, names[0], _show_chosen),
     )
 
