@@ -1,14 +1,17 @@
 """Bags of ROS 1 and 2: what their messages say, and where it lies on a map."""
 
 import contextlib
+import io
 import math
 import sqlite3
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
 
+import occsim.io.bags.parts
 from occsim import RobotFileError, Sensor, Trajectory, load_sample, simulate_scans
 from occsim.io import bags
 from occsim.io.bags import PoseSource
@@ -28,6 +31,76 @@ def driven(bag):
     """One scan half-way between (0, 0) facing +x and (2, 0) facing +y."""
     bag.odometry(10, (0, 0, 0)).odometry(12, (2, 0, math.pi / 2))
     return bag.scan(11, [3, 4, 5])
+
+
+def split_bag(folder, suffix=".mcap"):
+    """The files of a recording that ROS 2 split: 3 scans, the last without a pose.
+
+    The first file says where the range finder sits, and the first pose.
+    """
+    first, second = Bag(2), Bag(2)
+    first.tf(9, "base_link", "laser", (0.5, 0, 0), topic="/tf_static")
+    first.odometry(10, (0, 0, 0)).scan(10, [3, 4, 5])
+    second.odometry(12, (2, 0, 0)).scan(12, [3, 4, 5]).scan(99, [3, 4, 5])
+    contents = []
+    for name, bag in (("a", first), ("b", second)):
+        (folder / name).mkdir()
+        contents.append(bag.content(folder / name, suffix))
+    names = f"drive_2{suffix}", f"drive_10{suffix}"
+    return {**dict(zip(names, contents, strict=True)), "metadata.yaml": b"x: ../../y"}
+
+
+@pytest.mark.parametrize("suffix", [".mcap", ".db3"])
+def test_the_folder_of_a_recording_is_one_log(tmp_path, suffix):
+    """By hand: the laser sits half a metre ahead, at x = 0.5 and x = 2.5."""
+    files = split_bag(tmp_path, suffix)
+    folder = tmp_path / "drive"
+    folder.mkdir()
+    for name, data in files.items():
+        (folder / name).write_bytes(data)
+    zipped = {f"drive/{name}": data for name, data in files.items()}
+    for source in (folder, bags.join(files), bags.join(zipped)):
+        log = bags.load(source)
+        np.testing.assert_allclose(poses_m(log), [[0.5, 0, 0], [2.5, 0, 0]], atol=1e-9)
+        assert log.n_left_out == 1
+
+
+def zipped_bag(**files):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, data in files.items():
+            archive.writestr(name, data)
+    return out.getvalue()
+
+
+BAD_FOLDERS = {
+    "packed parts": ({"a.mcap.zstd": b"x"}, "unpack them first"),
+    "two bags": ({"a/a.mcap": b"x", "b/b.mcap": b"x"}, "one bag is read at a time"),
+    "a part that is none": ({"a.mcap": b"no bag"}, "is none of ROS"),
+}
+
+
+@pytest.mark.parametrize("kind", BAD_FOLDERS)
+def test_a_folder_that_is_no_bag_is_refused_in_a_sentence(kind):
+    files, says = BAD_FOLDERS[kind]
+    data = zipped_bag(**files)
+    assert bags.is_bag(data)
+    with pytest.raises(RobotFileError, match=says):
+        bags.load(data)
+
+
+def test_files_beside_those_of_a_bag_are_refused():
+    with pytest.raises(RobotFileError, match="got notes.txt among them"):
+        bags.join({"a.mcap": b"", "notes.txt": b""})
+    with pytest.raises(RobotFileError, match="needs a .db3 or .mcap"):
+        bags.join({"metadata.yaml": b""})
+
+
+def test_a_folder_that_unpacks_to_too_much_is_refused(monkeypatch):
+    monkeypatch.setattr(occsim.io.bags.parts, "MAX_FILE_BYTES", 10)
+    data = zipped_bag(**{"a.mcap": bytes(8), "b.mcap": bytes(8)})
+    with pytest.raises(RobotFileError, match="may unpack to at most 0 MB together"):
+        occsim.io.bags.parts._unzipped(data)
 
 
 @pytest.mark.parametrize(

@@ -167,7 +167,8 @@ def test_a_range_finder_simulates_and_maps(name):
     [
         ("kinect", 57 / 640, 4.0, 0.0258),  # Nguyen et al.
         ("urg-04lx", 0.352, 4.095, 0.041),  # 1 % of 4.095 m
-        ("utm-30lx", 0.25, 30.0, 0.05),
+        ("utm-30lx", 0.25, 10.0, 0.010),
+        ("utm-30lx", 0.25, 30.0, 0.030),
         ("lms200", 0.5, 8.0, 0.005),
         ("rplidar-a1", 1.0, 12.0, 0.12),  # 1 % of 12 m
         ("hc-sr04", 15.0, 4.0, 0.003),
@@ -181,12 +182,13 @@ def test_a_range_finder_has_the_figures_of_its_sheet(name, step_deg, at_m, sigma
     assert noise.sigma_px(at_m) == pytest.approx(sigma_m, rel=0.02)
 
 
-def test_only_a_kinect_and_a_sick_come_with_a_standard_deviation():
-    """Nguyen et al. measured the one, SICK states the other; the rest is accuracy."""
+def test_three_range_finders_come_with_a_standard_deviation():
+    """Nguyen et al. measured the Kinect's, SICK states one, a dealer quotes Hokuyo's
+    bounds for the UTM-30LX; the rest is accuracy."""
     stated = {
         k for k, one in RANGE_FINDERS.items() if "sigma_0_m" not in one.not_stated
     }
-    assert stated == {"kinect", "lms200"}
+    assert stated == {"kinect", "lms200", "utm-30lx"}
 
 
 def test_counts_of_scans_add_up_to_those_of_the_log():

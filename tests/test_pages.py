@@ -54,7 +54,8 @@ def rooms(height=160, width=220):
 def upload(app, label, name, data, mime="image/png"):
     """Give a file to the uploader of this label."""
     uploader = next(item for item in app.get("file_uploader") if item.label == label)
-    uploader.set_value((name, data, mime))
+    file = (name, data, mime)
+    uploader.set_value([file] if uploader.proto.multiple_files else file)
     app.run()
     assert not app.exception
     return app

@@ -6,8 +6,11 @@ import sys
 import numpy as np
 import pytest
 
-from occsim import RobotFileError
+from occsim import RobotFileError, load_sample
+from occsim.io import bags
 from occsim.io.log_run import open_log
+from occsim.io.project import Project, dump_project
+from occsim.io.ros_map import RosMap, pack
 from pages._ui.robot_data import scans
 from pages._ui.words import ordinal
 from tests.test_carmen import flaser
@@ -86,7 +89,9 @@ def test_a_map_that_would_be_too_large_is_refused_and_can_be_changed():
 
 def test_timed_scans_are_placed_by_their_trajectory():
     app = upload(launch(PAGE), LABEL, "scans.csv", CSV, "text/csv")
-    assert "timed scans need a TUM trajectory: upload it first" in said(app.error)[0]
+    assert (
+        "timed scans need a TUM trajectory: upload both together" in said(app.error)[0]
+    )
     poses = "Trajectory (TUM), before timed scans"
     app = upload(app, poses, "poses.txt", TUM, "text/plain")
     app = upload(app, LABEL, "scans.csv", CSV, "text/csv")
@@ -151,3 +156,97 @@ def test_what_was_left_out_is_said():
         "21st",
         "112th",
     ]
+
+
+def give(app, *files):
+    """Give several files to the upload of a log at once."""
+    uploader = next(x for x in app.get("file_uploader") if x.label == LABEL)
+    uploader.set_value([(name, data, "text/plain") for name, data in files])
+    app.run()
+    assert not app.exception
+    return app
+
+
+def test_timed_scans_and_their_trajectory_are_given_together():
+    app = give(launch(PAGE), ("poses.txt", TUM), ("scans.csv", CSV))
+    assert not app.error
+    assert caption(app).startswith("scans.csv: 1 scan of 3 beams")
+
+
+def test_several_logs_are_not_one_log():
+    app = give(launch(PAGE), ("a.log", log_of()), ("b.log", log_of()))
+    assert "one log is mapped at a time" in said(app.error)[0]
+    # The next one is alone, though it is given to the same upload.
+    app = upload(app, LABEL, "own.log", log_of())
+    assert not app.error
+    assert caption(app).startswith("own.log")
+    assert file_in(app, LABEL) is None
+
+
+def test_the_folder_of_a_bag_is_given_as_its_files_or_as_a_zip(tmp_path):
+    pytest.importorskip("rosbags", reason="the extra ros")
+    from tests.test_bags import split_bag
+
+    parts = split_bag(tmp_path)
+    app = give(launch(PAGE), *parts.items())
+    assert not app.error
+    assert "2 scans of 3 beams" in caption(app)
+    app = upload(launch(PAGE), LABEL, "bag.zip", bags.join(parts))
+    assert "2 scans of 3 beams" in caption(app)
+
+
+OTHERS = {
+    "a TUM file": (TUM, "p.txt", "trajectory in TUM format", "scans are missing"),
+    "KITTI poses": (
+        b"1 0 0 0 0 1 0 0 0 0 1 0\n" * 3,
+        "00.txt",
+        "as KITTI writes them",
+        "no times",
+    ),
+    "poses": (b"x\n1 2 0.5\n"[2:], "p.csv", "table of numbers", "6 Trajectory"),
+    "a yaml": (
+        b"image: a.pgm\nresolution: 0.05\n",
+        "a.yaml",
+        "the .yaml of a robot's map",
+        "together with its image",
+    ),
+    "a picture": (
+        b"\x89PNG\r\n\x1a\n0000",
+        "a.png",
+        "an image",
+        "open it as a drawing (Your building",
+    ),
+    "a map": (
+        b"P5 2 2 255\n\x00\xcd\xfe\xfe",
+        "a.pgm",
+        "a robot's map in ROS format",
+        "together with its .yaml",
+    ),
+    "a pose graph": (b"VERTEX_SE2 0 0 0 0\n", "a.g2o", "a pose graph", "are missing"),
+    "an array": (b"\x93NUMPY\x01\x00", "a.npy", "a NumPy array", "NPZ file of several"),
+    "a zip of a map": (pack(RosMap([[0, 100]], 0.1)), "a.zip", "a .yaml", "A ROS map"),
+    "a project": (
+        dump_project(Project(building=load_sample("d"))),
+        "a.zip",
+        "a project of this application",
+        "7 Keep",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", OTHERS)
+def test_a_file_that_is_no_log_is_told_what_is_missing_and_where_it_fits(kind):
+    data, name, is_what, where = OTHERS[kind]
+    with pytest.raises(RobotFileError) as refused:
+        open_log(data)
+    message = str(refused.value)
+    assert is_what in message
+    assert where in message
+    app = upload(launch(PAGE), LABEL, name, data)
+    assert is_what in said(app.error)[0]
+
+
+def test_a_wrong_trajectory_is_refused_when_it_is_given():
+    label = "Trajectory (TUM), before timed scans"
+    app = upload(launch(PAGE), label, "own.log", log_of(), "text/plain")
+    assert 'numbers are needed; got "FLASER"' in said(app.error)[0]

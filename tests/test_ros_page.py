@@ -20,6 +20,7 @@ from pages._ui.columns import Column
 from pages._ui.robot_data import files, ros
 from pages._ui.settings import Settings
 from tests.test_pages import launch, own, said
+from tests.test_ros_packing import zipped
 
 PAGE = "pages/4_Robot_data.py"
 YOURS = "pages/2_Your_building.py"
@@ -179,6 +180,25 @@ def test_one_file_of_the_two_is_answered_with_what_is_missing():
     assert "needs one image" in said(app.error)[0]
     app = give(app, *two_files())
     assert not app.error
+
+
+def test_of_a_zip_of_several_maps_one_is_chosen():
+    other = RosMap(values()[:60, :80], 0.1)
+    entries = {}
+    for name, one in (("upper", MAP), ("lower", other)):
+        yaml, image = dump(one, name, mode=MapMode.RAW)
+        entries |= {f"{name}.yaml": yaml, f"{name}.pgm": image}
+    app = give(opened(), ("floors.zip", zipped(**entries)))
+    assert not app.error
+    assert any(t.startswith("lower.yaml: 80 × 60 px of 0.1") for t in said(app.caption))
+    choice = next(box for box in app.selectbox if box.label == "One of 2 maps")
+    assert choice.options == ["lower.yaml", "upper.yaml"]
+    choice.set_value("upper.yaml").run()
+    assert any(t.startswith("upper.yaml: 160 × 120") for t in said(app.caption))
+    app = click(app, "Use as drawing")
+    np.testing.assert_array_equal(own(app).wall_mask, MAP.is_occupied)
+    app = give(app, *two_files())
+    assert not [box for box in app.selectbox if box.label == "One of 2 maps"]
 
 
 def test_our_own_map_and_prior_can_be_downloaded():

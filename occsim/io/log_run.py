@@ -7,7 +7,7 @@ from typing import TypedDict
 
 import numpy as np
 
-from occsim._files import read_source
+from occsim._files import printable, read_source
 from occsim._types import ShortRepr
 from occsim.building import Building
 from occsim.errors import ParameterError, RobotFileError, expect, whole_number
@@ -16,6 +16,7 @@ from occsim.grid import Grid
 from occsim.imaging import Drawing, FileKind, kind_of_file
 from occsim.io import bags, carmen, timed
 from occsim.io import scans as scan_files
+from occsim.io.log_advice import about_other_file
 from occsim.io.metric import MetricFrame
 from occsim.io.scans import MetricScans
 from occsim.scan import RangeFinder, evidence_from_scans, simulate_scans
@@ -86,8 +87,8 @@ def open_log(
     Parameters
     ----------
     source : bytes, str or Path
-        The file's content, or where it is: CARMEN, a bag of ROS, or NPZ as
-        `occsim.io.scans.dump` writes.
+        The file's content, or where it is: CARMEN, a bag of ROS, a zip file of the
+        folder of one, or NPZ as `occsim.io.scans.dump` writes.
     trajectory : bytes, str or Path, optional
         A TUM file that says where the scans were taken; then the source is timed scans,
         NPZ or CSV, as `occsim.io.timed.load` takes them.
@@ -131,6 +132,9 @@ def open_log(
         except ImportError as error:
             raise RobotFileError(str(error)) from None
     kind = kind_of_file(data, name)
+    other = about_other_file(data, kind)
+    if other:
+        raise RobotFileError(f"{printable(name)} is {other}")
     if kind is FileKind.ZIP:
         return scan_files.load(data, **options)
     if kind not in (FileKind.CARMEN_LOG, FileKind.TEXT):

@@ -111,7 +111,7 @@ def load(
         max_range_m=max_range_m,
         usable_range_m=usable_range_m,
     )
-    samples = _trajectory(trajectory)
+    samples = read_trajectory(trajectory)
     times, bearings, ranges, own_most = _scans(scans)
     most = own_most if max_range_m is None else float(max_range_m)
     if max_range_m is not None:
@@ -194,7 +194,30 @@ def placed_scans(
     )
 
 
-def _trajectory(source: bytes | str | Path) -> FloatArray:
+def read_trajectory(source: bytes | str | Path) -> FloatArray:
+    r"""Return the rows of a TUM trajectory.
+
+    Parameters
+    ----------
+    source : bytes, str or Path
+        The file's content, or where it is.
+
+    Returns
+    -------
+    ndarray of float64, shape (N, 8)
+        t, s; x, y, z, m; qx, qy, qz, qw.
+
+    Raises
+    ------
+    RobotFileError
+        Where it is missing, too large, or no such trajectory.
+
+    Examples
+    --------
+    >>> from occsim.io.timed import read_trajectory
+    >>> read_trajectory(b"0 0 0 0 0 0 0 1\n10 5 0 0 0 0 0 1\n").shape
+    (2, 8)
+    """
     data, name = read_source(
         source,
         what="the trajectory",

@@ -139,14 +139,14 @@ RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
             max_range_m=30.0,
             fov_rad=_degrees(1081 * 0.25),
             n_beams=1081,
-            sigma_0_m=0.030,
+            sigma_0_m=0.010,
             sigma_2_per_m=0.00005,
             sigma_from_m=10.0,
             source="Hokuyo, 'Communication Protocol Specification for SCIP 2.0', "
             "C-42-03320B, table 2: steps 0 to 1080 of 1440; 'Scanning Laser Range "
-            "Finder UTM-30LX Specification': 0.1 to 30 m, accuracy 30 mm to 10 m and "
-            "50 mm beyond, taken as sigma",
-            not_stated=_SIGMA,
+            "Finder UTM-30LX Specification': 0.1 to 30 m; sigma below 10 mm to 10 m "
+            "and below 30 mm to 30 m, as the documentation of the robot Cacic quotes "
+            "RobotShop's sheet, these bounds taken as sigma",
         ),
         "lms200": RangeFinder(
             title="SICK LMS200",

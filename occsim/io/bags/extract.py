@@ -31,14 +31,15 @@ TF_TEXT = "geometry_msgs/TransformStamped[] transforms"
 
 
 def extract(
-    path: str, name: str, scan_topic: str | None, poses: str, max_ranges: int
+    paths: list[str], name: str, scan_topic: str | None, poses: str, max_ranges: int
 ) -> tuple[dict[str, Any], dict[str, Array]]:
     """Return what a bag says of its scans.
 
     Parameters
     ----------
-    path : str
-        The file, by its suffix of ROS 1 (.bag) or ROS 2.
+    paths : list of str
+        The files of one recording in their order, by their suffix of ROS 1 (.bag) or
+        ROS 2.
     name : str
         What to call it.
     scan_topic, poses
@@ -60,7 +61,7 @@ def extract(
         Where it is damaged, or has no scans or no poses.
     """
     try:
-        bag = _Bag(Path(path), name, scan_topic, max_ranges)
+        bag = _Bag([Path(path) for path in paths], name, scan_topic, max_ranges)
     except OccsimError:
         raise
     except MemoryError:
@@ -77,15 +78,24 @@ class _Bag:
     """The messages of a bag that matter here."""
 
     def __init__(
-        self, path: Path, name: str, scan_topic: str | None, max_ranges: int
+        self,
+        paths: list[Path],
+        name: str,
+        scan_topic: str | None,
+        max_ranges: int,
     ) -> None:
         self.name, self.scans = name, list[tuple[float, Any]]()
         self._max_ranges, self._n_ranges = max_ranges, 0
         self.transforms, self.odometry = Edges(), dict[str, Edges]()
-        with _reader(path) as reader:
-            self.topic = _topic_of_scans(reader.connections, name, scan_topic)
-            for topic, kind, time_s, message in _messages(reader, self.topic, path):
-                self._take(topic, kind, time_s, message)
+        connections = []
+        for path in paths:
+            with _reader(path) as reader:
+                connections += reader.connections
+        self.topic = _topic_of_scans(connections, name, scan_topic)
+        for path in paths:
+            with _reader(path) as reader:
+                for message in _messages(reader, self.topic, path):
+                    self._take(*message)
         if not self.scans:
             raise RobotFileError(f"{name} has no scan in {printable(self.topic)}")
 

@@ -15,15 +15,13 @@ from typing import Any
 import numpy as np
 
 from occsim._extras import needs_extra
-from occsim._files import printable, read_source
+from occsim._files import printable
 from occsim._npz import unpacked
 from occsim._types import FloatArray
 from occsim.errors import OccsimError, RobotFileError, choice
-from occsim.io.bags.limits import ARRAYS, MAX_FILE_BYTES, MAX_SECONDS, PoseSource
+from occsim.io.bags.limits import ARRAYS, MAX_SECONDS, PoseSource
+from occsim.io.bags.parts import read_parts, suffix_of
 from occsim.io.scans import MAX_RANGES, MetricScans, check_lengths, metric_scans
-
-MARKS = {b"#ROSBAG V2.0": ".bag", b"\x89MCAP0\r\n": ".mcap", b"SQLite format 3": ".db3"}
-"""How the files of bags begin, and the suffix by which `rosbags` knows them."""
 
 PROCESS = Path(__file__).with_name("process.py")
 
@@ -59,18 +57,6 @@ class BagLog(MetricScans):
     n_left_out: int
 
 
-def is_bag(data: bytes) -> bool:
-    r"""Return whether a file begins as a bag's does.
-
-    Examples
-    --------
-    >>> from occsim.io import bags
-    >>> bags.is_bag(b"#ROSBAG V2.0\n"), bags.is_bag(b"FLASER 3")
-    (True, False)
-    """
-    return data.startswith(tuple(MARKS))
-
-
 def is_readable() -> bool:
     """Return whether `rosbags` is installed."""
     return find_spec("rosbags") is not None
@@ -91,6 +77,7 @@ def load(
     ----------
     source : bytes, str or Path
         The content of a file (.bag of ROS 1, .mcap or .db3 of ROS 2), or where it is.
+        ROS 2 keeps a recording as a folder: that folder, or a zip file of it.
     scan_topic : str, optional
         A topic of ``sensor_msgs/LaserScan``; by default the one with the most scans.
     poses : PoseSource, default PoseSource.AUTO
@@ -130,14 +117,8 @@ def load(
         max_range_m=max_range_m,
         usable_range_m=usable_range_m,
     )
-    data, name = read_source(
-        source,
-        what="the bag",
-        needed="a bag of ROS",
-        max_bytes=MAX_FILE_BYTES,
-        error=RobotFileError,
-    )
-    facts, arrays = _extracted(data, printable(name), scan_topic, wanted.value)
+    parts, name = read_parts(source)
+    facts, arrays = _extracted(parts, printable(name), scan_topic, wanted.value)
     ranges = np.asarray(arrays["ranges_m"], dtype=np.float64)
     most = float(arrays["max_range_m"]) if max_range_m is None else float(max_range_m)
     with np.errstate(invalid="ignore"):
@@ -158,14 +139,14 @@ def load(
 
 
 def _extracted(
-    data: bytes, name: str, scan_topic: str | None, poses: str
+    parts: list[bytes], name: str, scan_topic: str | None, poses: str
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return what a bag's own process read."""
-    with _as_file(data, name) as path:
+    with _as_files(parts, name) as paths:
         with needs_extra("ros", "a ROS bag"):
             import rosbags.interfaces  # noqa: F401
         request = {
-            "path": str(path),
+            "paths": [str(path) for path in paths],
             "name": name,
             "scan_topic": scan_topic,
             "poses": poses,
@@ -183,15 +164,16 @@ def _extracted(
 
 
 @contextlib.contextmanager
-def _as_file(data: bytes, name: str) -> Iterator[Path]:
-    """Lend a file with a suffix that `rosbags` knows."""
-    suffix = next((s for mark, s in MARKS.items() if data.startswith(mark)), None)
-    if suffix is None:
-        raise RobotFileError(f"{name} is none of ROS (.bag, .mcap or .db3)")
+def _as_files(parts: list[bytes], name: str) -> Iterator[list[Path]]:
+    """Lend files with suffixes that `rosbags` knows, in a folder of their own each."""
+    suffixes = [suffix_of(data, name) for data in parts]
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, f"bag{suffix}")
-        path.write_bytes(data)
-        yield path
+        paths = []
+        for index, (data, suffix) in enumerate(zip(parts, suffixes, strict=True)):
+            paths.append(Path(folder, str(index), f"bag{suffix}"))
+            paths[-1].parent.mkdir()
+            paths[-1].write_bytes(data)
+        yield paths
 
 
 def _asked(request: str, name: str) -> bytes:

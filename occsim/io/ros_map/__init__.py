@@ -3,7 +3,7 @@
 from occsim.io.ros_map.building import building_from_map, map_drawing
 from occsim.io.ros_map.files import dump, load, save
 from occsim.io.ros_map.meta import MapMode
-from occsim.io.ros_map.packing import load_files, pack
+from occsim.io.ros_map.packing import load_files, map_names, pack
 from occsim.io.ros_map.ros_map import RosMap
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "load",
     "load_files",
     "map_drawing",
+    "map_names",
     "pack",
     "save",
 ]

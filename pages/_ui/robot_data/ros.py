@@ -8,18 +8,24 @@ from typing import Any
 import streamlit as st
 
 from occsim import Corrections
+from occsim._files import printable
 from occsim.building import Building, mask_of_size
 from occsim.io.images import drawing_png
 from occsim.io.metric import MetricFrame
-from occsim.io.ros_map import RosMap, load_files, map_drawing
+from occsim.io.ros_map import RosMap, load_files, map_drawing, map_names
 from pages._ui import compute, shell, state, uploads, words
 from pages._ui.robot_data import files
 from pages._ui.robot_data.work import Placed
 
 KEPT, KEEP_UNKNOWN = "ros_map", "ros_keep_unknown"
+SEVERAL, WHICH = "ros_maps", "ros_which"
+"""The files of several maps, and the one that is shown."""
 UNKNOWN_BELOW = 0.196
 """The level that map servers write for unknown is 205: 0.196 of black."""
-ABOUT = "The .yaml and the image (.pgm or .png) together, or both in one .zip."
+ABOUT = (
+    "The .yaml and the image (.pgm or .png) together, or both in one .zip; of several "
+    "maps you choose one."
+)
 TRAP = (
     "This file's free_thresh calls free what map servers write as unknown (level 205). "
     "nav2 reads it so. Switched on, such pixels stay unknown."
@@ -62,6 +68,7 @@ def show() -> None:
 def panel() -> None:
     """Draw the upload of a map, what it is, and what it can be used as."""
     uploads.uploader("ROS map", "own_ros_map", _take, ABOUT, several=True)
+    _choose()
     kept = state.view(KEPT, None)
     if kept is None:
         st.caption(
@@ -108,12 +115,40 @@ def _place(frame: MetricFrame) -> str:
 
 def _take(given: Any) -> None:
     contents = {file.name: file.getvalue() for file in given}
-    kept = MapFile(
-        next((n for n in contents if not n.lower().endswith((".yaml", ".yml"))), "map"),
-        load_files(contents),
-        load_files(contents, free_thresh=UNKNOWN_BELOW),
+    names = map_names(contents)
+    which = names[0] if len(names) > 1 else None
+    state.set_view(KEPT, _read(contents, which))
+    state.set_view(SEVERAL, contents if which else None)
+    state.set_view(WHICH, which)
+
+
+def _read(contents: dict[str, bytes], which: str | None) -> MapFile:
+    images = (n for n in contents if not n.lower().endswith((".yaml", ".yml")))
+    return MapFile(
+        which or next(images, "map"),
+        load_files(contents, which=which),
+        load_files(contents, which=which, free_thresh=UNKNOWN_BELOW),
     )
-    state.set_view(KEPT, kept)
+
+
+def _choose() -> None:
+    """Let one of several maps be chosen."""
+    contents = state.view(SEVERAL, None)
+    if contents is None:
+        return
+    names = map_names(contents)
+    st.selectbox(
+        f"One of {len(names)} maps",
+        names,
+        format_func=printable,  # options are no Markdown
+        **state.bind_view(WHICH, names[0], _show_chosen),
+    )
+
+
+def _show_chosen() -> None:
+    contents, which = state.view(SEVERAL, None), state.view(WHICH, None)
+    if contents is not None:
+        state.set_view(KEPT, _read(contents, which))
 
 
 def _uses(name: str, ros_map: RosMap) -> None:

@@ -8,7 +8,7 @@ import streamlit as st
 
 from occsim import OccsimError, RobotFileError
 from occsim.io import bags
-from occsim.io.timed import TimedScans, is_timed_scans
+from occsim.io.timed import TimedScans, is_timed_scans, read_trajectory
 from pages._ui import controls, limits, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel
 from pages._ui.columns import LOG_COLUMNS, Column
@@ -32,9 +32,14 @@ NO_TRUTH = "There is no ground truth, so no score."
 POSES, TAKEN = "robot_log_poses", "robot_logs_taken"
 ABOUT = (
     "A log in CARMEN format (FLASER or ROBOTLASER1 lines; .log, .gfs.log)"
-    + (", a bag of ROS 1 or 2 (.bag, .mcap, .db3)" if bags.is_readable() else "")
-    + ", or scans as NPZ; timed scans (CSV, NPZ) after their trajectory. Its poses are "
-    "taken as they are."
+    + (
+        ", a bag of ROS 1 or 2 (.bag, .mcap, .db3; of a bag's folder its files "
+        "together, or a zip of it)"
+        if bags.is_readable()
+        else ""
+    )
+    + ", or scans as NPZ; timed scans (CSV, NPZ) together with their trajectory. Its "
+    "poses are taken as they are."
 )
 
 
@@ -104,7 +109,8 @@ def _choose_maps() -> None:
 
 
 def _uploads() -> None:
-    uploads.uploader("Log of scans", f"own_log_{state.view(TAKEN, 0)}", _use_log, ABOUT)
+    key = f"own_log_{state.view(TAKEN, 0)}"
+    uploads.uploader("Log of scans", key, _use_log, ABOUT, several=True)
     st.caption(ABOUT)
     uploads.uploader(
         "Trajectory (TUM), before timed scans",
@@ -119,23 +125,47 @@ def _columns() -> tuple[Column, ...]:
     return MAPS[state.view(SHOWN, ONE)]
 
 
-def _use_log(file: Any) -> None:
-    data, trajectory = file.getvalue(), None
-    if is_timed_scans(data):
-        trajectory = state.view(POSES, None)
-        if trajectory is None:
-            raise RobotFileError("timed scans need a TUM trajectory: upload it first")
-    log = LogFile(file.name, data, trajectory=trajectory)
+def _use_log(given: Any) -> None:
+    _renew_upload()  # else the next log would be given together with this one
+    log = _log_of({file.name: file.getvalue() for file in given})
     logs.played(log, state.settings())  # refused here, or not at all
     state.edit_robot(log=log)
 
 
+def _log_of(files: dict[str, bytes]) -> LogFile:
+    """One log of the files that were given together."""
+    timed_scans = [name for name, data in files.items() if is_timed_scans(data)]
+    if len(files) == 1:
+        [(name, data)] = files.items()
+        poses = state.view(POSES, None) if timed_scans else None
+        if timed_scans and poses is None:
+            raise RobotFileError(
+                "timed scans need a TUM trajectory: upload both together"
+            )
+        return LogFile(name, data, trajectory=poses)
+    if len(files) == 2 and len(timed_scans) == 1:
+        scans = files.pop(timed_scans[0])
+        [poses] = files.values()
+        return LogFile(timed_scans[0], scans, trajectory=poses)
+    if any(bags.is_bag(data) for data in files.values()):
+        return LogFile(min(files), bags.join(files))
+    raise RobotFileError(
+        "one log is mapped at a time. Only the files of one bag, or timed scans and "
+        f"their trajectory, are given together; got {len(files)} files"
+    )
+
+
 def _keep_trajectory(file: Any) -> None:
-    state.set_view(POSES, file.getvalue())
+    data = file.getvalue()
+    read_trajectory(data)  # refused here, or not at all
+    state.set_view(POSES, data)
 
 
 def _forget() -> None:
     state.edit_robot(log=None)
+
+
+def _renew_upload() -> None:
     state.set_view(TAKEN, state.view(TAKEN, 0) + 1)
 
 
