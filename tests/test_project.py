@@ -461,7 +461,10 @@ HOSTILE = {
         archive_with({TRACED: b"GIF89a"}),
         "traced.png must be a PNG image",
     ),
-    "wide traced walls": (archive_with({TRACED: WIDE}), "each side of traced.png"),
+    "huge traced walls": (
+        archive_with({TRACED: mask_png(np.zeros((4001, 4000), bool))}),
+        "traced.png has 4,000 x 4,001 px; a map may have 1 to 16,000,000 px",
+    ),
 }
 
 
@@ -487,6 +490,30 @@ def test_a_robots_data_opens_as_it_was_saved():
     np.testing.assert_array_equal(opened.traced, traced)
     nothing = load_project(dump_project(Project(building=building()))).robot
     assert all(not getattr(nothing, one.name) for one in fields(RobotData))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        # Eastings and northings of UTM, as outdoor maps have them.
+        {"origin": (4.5e5, 5.2e6, 0.1)},
+        {"log": b"1", "log_poses": bytes(MAX_LOG_BYTES - 1)},
+        {"traced": np.eye(3, 7, dtype=bool)},
+        {"traced": np.ones((9, 600), dtype=bool)},
+    ],
+    ids=["a far origin", "a long trajectory", "a small map", "a corridor's map"],
+)
+def test_whatever_a_robots_data_holds_opens_again(data):
+    robot = RobotData(**data)
+    opened = load_project(dump_project(Project(building=building(), robot=robot))).robot
+    for name, value in data.items():
+        np.testing.assert_array_equal(getattr(opened, name), value)
+
+
+def test_a_name_that_no_file_may_have_is_written_as_one_that_can_be_read():
+    robot = RobotData(log=b"1", log_name="\ud800" + "x" * 5000)
+    opened = load_project(dump_project(Project(building=building(), robot=robot))).robot
+    assert opened.log_name == "?" + "x" * 1999
 
 
 def test_a_log_that_could_not_be_read_back_is_not_written():

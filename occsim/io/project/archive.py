@@ -16,14 +16,14 @@ FOUND, CORRECTIONS, WALLS = "walls_found.png", "corrections.png", "walls.png"
 UNKNOWN = "unknown.png"
 LOG, LOG_POSES, TRACED = "log", "log_trajectory.txt", "traced.png"
 MAX_LOG_BYTES = 20_000_000
-"""Largest robot's log in a project, bytes."""
+"""Largest robot's log in a project, with its trajectory, bytes."""
 TRUTH, OLD_TRUTH = "truth.png", "truth_base.png"
 IMAGES = (DRAWING, FOUND, CORRECTIONS, WALLS, UNKNOWN, TRUTH, OLD_TRUTH)
 LIMITS: Mapping[str, int] = {
     JSON_NAME: 4_000_000,
     TRAJECTORY_NAME: 8_000_000,
     LOG: MAX_LOG_BYTES,
-    LOG_POSES: 8_000_000,
+    LOG_POSES: MAX_LOG_BYTES,
     TRACED: 8_000_000,
     **dict.fromkeys(IMAGES, MAX_UNPACKED_BYTES),
 }

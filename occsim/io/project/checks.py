@@ -20,3 +20,8 @@ def is_number(value: object) -> bool:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return abs(value) < 1e15 and math.isfinite(value)
+
+
+def written_text(text: str) -> str:
+    """Return a text that can be read back: valid Unicode and not too long."""
+    return text.encode("utf-8", "replace").decode()[:MAX_TEXT]

@@ -33,6 +33,7 @@ from occsim.io.project.archive import (
     check_images,
     unpacked_project,
 )
+from occsim.io.project.checks import written_text
 from occsim.io.project.robot import (
     RobotData,
     read_robot,
@@ -43,7 +44,6 @@ from occsim.io.project.values import (
     FORMAT,
     VERSION,
     read_values,
-    written_text,
 )
 from occsim.io.trajectories import (
     TrajectoryFormat,

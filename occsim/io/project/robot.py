@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from occsim._types import BoolArray
-from occsim.imaging import load_drawing, png_size
+from occsim.imaging import png_size
 from occsim.io.images import mask_png
 from occsim.io.project.archive import (
     LIMITS,
@@ -15,16 +15,15 @@ from occsim.io.project.archive import (
     ProjectError,
     shown,
 )
-from occsim.io.project.checks import is_number, is_text
+from occsim.io.project.checks import is_number, is_text, written_text
+from occsim.io.ros_map.image import read_image
 from occsim.registration import Registration
-from occsim.world import world_from_image
 
 MAX_POINTS = 2
 """Most points on drawing and on map, each."""
 FAR_PX = 100_000.0
 FIELDS = ("scale", "rotation_rad", "shift_x_px", "shift_y_px")
 ORIGIN = ("x_m", "y_m", "yaw_rad")
-FARTHEST = 1e6
 
 Points = tuple[tuple[float, float], ...]
 
@@ -96,7 +95,7 @@ def robot_document(robot: RobotData) -> dict[str, Any]:
     """Return what the JSON says of it."""
     lies = robot.registration
     return {
-        "log_name": robot.log_name,
+        "log_name": written_text(robot.log_name),
         "map_id": robot.map_id,
         "registration": lies and {name: getattr(lies, name) for name in FIELDS},
         "drawing_points": [list(point) for point in robot.drawing_points],
@@ -176,7 +175,7 @@ def _origin(value: object) -> tuple[float, float, float] | None:
     if (
         not isinstance(value, list)
         or len(value) != len(ORIGIN)
-        or not all(is_number(one) and abs(one) <= FARTHEST for one in value)
+        or not all(is_number(one) for one in value)
     ):
         raise ProjectError(f"origin must be {', '.join(ORIGIN)}; got {shown(value)}")
     x, y, yaw = (float(one) for one in value)
@@ -188,4 +187,5 @@ def _traced(files: Mapping[str, bytes]) -> BoolArray | None:
         return None
     if png_size(files[TRACED]) is None:
         raise ProjectError(f"{TRACED} must be a PNG image; it is not")
-    return world_from_image(load_drawing(files[TRACED], name=TRACED)).occupied
+    # As the map of a robot: it may be smaller or longer than any drawing.
+    return read_image(files[TRACED], TRACED).colour < 0.5

@@ -71,11 +71,6 @@ def read_values(content: bytes) -> ProjectValues:
     )
 
 
-def written_text(text: str) -> str:
-    """Return a text that can be read back: valid Unicode and not too long."""
-    return text.encode("utf-8", "replace").decode()[:MAX_TEXT]
-
-
 def _json(content: bytes) -> Mapping[str, Any]:
     """Return the object that the JSON holds."""
     try:
