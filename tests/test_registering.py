@@ -93,6 +93,15 @@ def test_a_registration_is_said_in_the_words_of_the_page():
     )
 
 
+def test_a_drawing_beside_the_map_is_said_to_be_where_the_robot_never_looked():
+    building, made, _ = opened("b")
+    far = Registration(shift_x_px=1e6)
+    found = registered.agrees(building.wall_mask, far, made)
+    assert registering.agreement_words(found) == (
+        "The robot looked at none of the drawn walls, +0 bits"
+    )
+
+
 def section(app):
     key = "view_robot_section"
     return run(app.segmented_control(key=key).set_value("A drawing for the log"))

@@ -7,7 +7,7 @@ from functools import partial
 
 import streamlit as st
 
-from occsim import Registration
+from occsim import Agreement, Registration
 from pages._ui import controls, limits, logs, shell, state, uploads, words
 from pages._ui.choices import CellModel, PriorDrawing
 from pages._ui.columns import DRAWN_COLUMNS, Column
@@ -180,14 +180,21 @@ def _numbers(so_far: Registrations, made: PlayedLog) -> None:
     walls = state.building().wall_mask
     steps = so_far.steps[-2:]
     agreed = [registered.agrees(walls, step, made) for step in steps]
-    shown = [
-        f"{words.percent(one.share_found)} of the drawn walls that the robot looked at "
-        f"are walls in its map, {words.number(round(one.bits), '+,')} bits"
-        for one in agreed
-    ]
+    shown = [agreement_words(one) for one in agreed]
     before = f" Before: {shown[0]}." if len(shown) == 2 else ""
     st.markdown(f"**{shown[-1]}.**{before}", help=BITS)
     st.caption(where(now, made))
+
+
+def agreement_words(found: Agreement) -> str:
+    """How well a registered drawing agrees, without a full stop."""
+    bits = f"{words.number(round(found.bits), '+,')} bits"
+    if not found.n_walls_seen:
+        return f"The robot looked at none of the drawn walls, {bits}"
+    return (
+        f"{words.percent(found.share_found)} of the drawn walls that the robot looked "
+        f"at are walls in its map, {bits}"
+    )
 
 
 def where(registration: Registration, made: PlayedLog) -> str:
