@@ -5,7 +5,7 @@ import re
 import pytest
 
 from occsim import Prior, Region, UpdateRule, log_loss, sample_names, score
-from pages._ui import compute
+from pages._ui import compute, words
 from pages._ui.priors import scores
 from pages._ui.settings import Settings
 
@@ -39,7 +39,7 @@ def test_the_blank_map_knows_nothing_where_nobody_looked(run):
     """It calls no cell wall and gives the truth one half: one bit a cell."""
     by_name = {row.name: row for row in scores.rows(run, Prior())}
     column = list(scores.COLUMNS).index(Region.UNEXPLORED)
-    assert by_name["Precision"].blank[column] == scores.DASH
+    assert by_name["Precision"].blank[column] == words.DASH
     assert by_name["Bits per cell"].blank[column] == "1.000"
 
 

@@ -93,7 +93,6 @@ CSS = """
     outline-offset: -1px; }
 /* A number stays in one piece. */
 [data-testid="stMarkdownContainer"] td[style*="right"] { white-space: nowrap; }
-[data-testid="stTable"] { overflow-x: auto; }
 /* A term of the glossary: its meaning also shows when Tab or a finger is on it. */
 abbr[title] { cursor: help; text-decoration: underline dotted; }
 abbr[title]:focus::after { content: attr(title); position: fixed; z-index: 999;

@@ -110,7 +110,7 @@ def tables(cases: list[StudyCase]) -> None:
 def _shown(value: object) -> str:
     if isinstance(value, float):
         return words.number(value, ".2f")
-    return words.ranges(str(value)).replace(" ", "\u00a0") or words.DASH
+    return words.ranges(str(value)) or words.DASH
 
 
 def all_fronts(cases: list[StudyCase]) -> None:
