@@ -179,10 +179,8 @@ def test_two_points_at_one_place_are_refused_in_a_sentence():
     assert "must lie apart" in said(app.error)[0]
 
 
-def test_without_a_drawing_the_map_asks_for_one_and_a_traced_one_serves():
-    app = section(upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain"))
-    app = step(app, "Map with it")
-    assert "Register a drawing on the map first, or trace walls." in said(app.info)
+def trace(app):
+    """Draw a wall on the map of the log."""
     app = step(app, "Or trace walls")
     imposed = app.session_state["boards"][registering.TRACE_KEY].imposed
     mask = np.zeros(imposed.shape, bool)
@@ -191,8 +189,14 @@ def test_without_a_drawing_the_map_asks_for_one_and_a_traced_one_serves():
     tiles = committed_tiles(imposed.corrections, drawn)
     says = {"rev": imposed.rev, "token": imposed.token, "tiles": tiles}
     app.session_state[registering.TRACE_KEY] = {"committed": says}
-    app = run(app)
+    return run(app)
+
+
+def test_without_a_drawing_the_map_asks_for_one_and_a_traced_one_serves():
+    app = section(upload(launch(PAGE), LABEL, "own.log", log_of(), "text/plain"))
     app = step(app, "Map with it")
+    assert "Register a drawing on the map first, or trace walls." in said(app.info)
+    app = step(trace(app), "Map with it")
     rows = next(t for t in said(app.markdown) if "on scans held out" in t)
     assert "no drawing" in rows
     assert "drawing, counted once" in rows

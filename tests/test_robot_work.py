@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from occsim import Corrections
 from occsim.io.project import Project, dump_project, load_project
 from pages._ui import compute, logs
@@ -13,7 +11,6 @@ from pages._ui.robot_data.played import play_log
 from pages._ui.robot_data.work import RobotWork, Traced, of_project, to_project
 from pages._ui.settings import Settings
 from pages._ui.state.works import Work, Works
-from tests.boards import committed_tiles
 from tests.test_pages import launch, said, upload
 from tests.test_registering import (
     agreement_of,
@@ -22,6 +19,7 @@ from tests.test_registering import (
     run,
     section,
     step,
+    trace,
 )
 from tests.test_robot_data import LABEL, PAGE, caption, log_of
 from tests.test_session import opened
@@ -43,19 +41,6 @@ def registered_by_points(app):
         app.session_state[key] = points_commit(app, key, points)
         app = run(run(app))
     return app
-
-
-def trace(app):
-    """Draw a wall on the map of the log."""
-    app = step(app, "Or trace walls")
-    imposed = app.session_state["boards"][registering.TRACE_KEY].imposed
-    mask = np.zeros(imposed.shape, bool)
-    mask[5:8, 4:40] = True
-    drawn = Corrections.between(~mask & mask, mask)
-    tiles = committed_tiles(imposed.corrections, drawn)
-    says = {"rev": imposed.rev, "token": imposed.token, "tiles": tiles}
-    app.session_state[registering.TRACE_KEY] = {"committed": says}
-    return run(app)
 
 
 def reloaded(app):
